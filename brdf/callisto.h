@@ -1,0 +1,152 @@
+#pragma once
+
+#include <array>
+#include <numbers>
+
+#include "brdf/geometry.h"
+#include "brdf/ggx.h"
+#include "brdf/parameter.h"
+
+namespace likeness::brdf {
+
+// The Callisto BRDF: Lambert and two GGX lobes with explicit controls for the diffuse Fresnel rise,
+// retroreflection, the shading terminator and the specular Fresnel rise.
+//
+//     f(l, v) = (c1 rho / pi + f_ggx) c2                        [1/sr], cosine not included
+//     c1  = lerp(1, rho_f, h(theta_d, n_f, theta_h, m_f)) lerp(1, rho_r, h(theta_h, n_r, theta_d, m_r))
+//     c2  = lerp(1, smoothstep(0, alpha_s p, cos_i), alpha_s o)
+//     F   = f0 + t(2 - r(n_s)) (1 - f0) (1 - cos theta_d)^(5 r(n_s))
+//     h(t, n, u, m) = (1 - cos t)^(5 r(n)) (cos u)^(5 r(m)),   r(x) = 2 (1 - x),   0^0 = 1
+//     alpha_s = (1 - (1 - cos theta_d)^3) (1 - (1 - cos theta_h)^3)
+//
+// Source      Jimenez and Petersen, "The Rendering of The Callisto Protocol", SIGGRAPH 2023 Advances.
+// Departures  the slide's first mask prints n_r, m_r for n_f, m_f; its alpha_s has angles for cosines;
+//             its Fresnel exponent has lost its raising: all three as in the project's definition.
+// Frame       local: z along the shading normal.
+// Directions  unit, both leaving the surface. If either is at or below the horizon, f = 0.
+// Holds       at its defaults (and any values of the first four rows) f is Lambert + GGX, bit for bit.
+// Does not    conserve energy (rho_f, rho_r reach 256), nor hold f(l, v) = f(v, l): c2 sees cos_i only.
+template <Scalar S>
+struct Callisto {
+  static constexpr std::string_view kName = "callisto";
+  static constexpr std::array kParameters{
+      Parameter{.name = "base_color", .initial = 0.5, .range = {0, 1}, .typical = {0.02, 0.9},
+                .role = Role::kScale, .channels = 3,
+                .text = "rho: diffuse albedo of the dielectric part, f0 of the metallic part, linear RGB"},
+      Parameter{.name = "metallic", .initial = 0, .range = {0, 1}, .typical = {0, 1}, .role = Role::kMix,
+                .text = "0 dielectric, 1 metal: moves f0 to base_color and removes the diffuse"},
+      Parameter{.name = "specular", .initial = 0.5, .range = {0, 1}, .typical = {0.1, 1}, .role = Role::kScale,
+                .text = "f0 of the dielectric part, divided by 0.08"},
+      Parameter{.name = "roughness", .initial = 0.5, .range = {0, 1}, .typical = {0.03, 0.9},
+                .text = "of the sharper lobe; its square is the GGX alpha, kept above 1e-4"},
+      Parameter{.name = "diffuse_fresnel", .initial = 1, .range = {0, 256}, .typical = {0, 8},
+                .role = Role::kScale, .tier = Tier::kBase,
+                .text = "rho_f: factor on the diffuse towards theta_d = 90 deg"},
+      Parameter{.name = "diffuse_fresnel_falloff", .initial = 0.75, .range = {0, 1}, .typical = {0.3, 0.95},
+                .tier = Tier::kBase, .text = "n_f: 0 late, 1 everywhere"},
+      Parameter{.name = "retroreflection", .initial = 1, .range = {0, 256}, .typical = {0, 8},
+                .role = Role::kScale, .tier = Tier::kBase,
+                .text = "rho_r: factor on the diffuse towards theta_h = 90 deg"},
+      Parameter{.name = "retroreflection_falloff", .initial = 0.75, .range = {0, 1}, .typical = {0.3, 0.95},
+                .tier = Tier::kBase, .text = "n_r: 0 late, 1 everywhere"},
+      Parameter{.name = "smooth_terminator", .initial = 0, .range = {-1, 1}, .typical = {-0.5, 1},
+                .role = Role::kScale, .tier = Tier::kBase,
+                .text = "o: above 0 darkens towards the terminator, below 0 brightens"},
+      Parameter{.name = "diffuse_fresnel_tint", .initial = 1, .range = {0, 1}, .typical = {0.3, 1},
+                .role = Role::kTint, .tier = Tier::kAdvanced, .channels = 3, .tints = "diffuse_fresnel",
+                .text = "multiplies diffuse_fresnel, linear RGB"},
+      Parameter{.name = "retroreflection_tint", .initial = 1, .range = {0, 1}, .typical = {0.3, 1},
+                .role = Role::kTint, .tier = Tier::kAdvanced, .channels = 3, .tints = "retroreflection",
+                .text = "multiplies retroreflection, linear RGB"},
+      Parameter{.name = "smooth_terminator_tint", .initial = 1, .range = {0, 1}, .typical = {0.3, 1},
+                .role = Role::kTint, .tier = Tier::kAdvanced, .channels = 3, .tints = "smooth_terminator",
+                .text = "multiplies smooth_terminator, linear RGB"},
+      Parameter{.name = "specular_fresnel_falloff", .initial = 0.5, .range = {0, 1}, .typical = {0, 0.9},
+                .tier = Tier::kAdvanced, .text = "n_s: 0 no rise, 0.5 Schlick's, 1 white everywhere"},
+      Parameter{.name = "dual_specular_roughness_scale", .initial = 2, .range = {1, 16}, .typical = {1.5, 8},
+                .tier = Tier::kAdvanced, .text = "roughness of the second lobe over that of the first, capped at roughness 1"},
+      Parameter{.name = "dual_specular_opacity", .initial = 0, .range = {0, 1}, .typical = {0, 0.9},
+                .role = Role::kMix, .tier = Tier::kAdvanced, .text = "weight of the second lobe; the first has the rest"},
+      Parameter{.name = "diffuse_fresnel_tangent_falloff", .initial = 0.75, .range = {0, 1}, .typical = {0.3, 1},
+                .tier = Tier::kFull, .text = "m_f: how soon the rise fades towards theta_h = 90 deg; 1 never"},
+      Parameter{.name = "retroreflection_tangent_falloff", .initial = 0.75, .range = {0, 1}, .typical = {0.3, 1},
+                .tier = Tier::kFull, .text = "m_r: how soon it fades towards theta_d = 90 deg; 1 never"},
+      Parameter{.name = "smooth_terminator_length", .initial = 0.5, .range = {0, 1}, .typical = {0.1, 1},
+                .tier = Tier::kFull, .text = "p: cosine of the light's angle at which the terminator's effect ends"},
+  };
+  static constexpr auto members() {
+    using C = Callisto;
+    return std::tuple{&C::base_color, &C::metallic, &C::specular, &C::roughness, &C::diffuse_fresnel,
+                      &C::diffuse_fresnel_falloff, &C::retroreflection, &C::retroreflection_falloff,
+                      &C::smooth_terminator, &C::diffuse_fresnel_tint, &C::retroreflection_tint,
+                      &C::smooth_terminator_tint, &C::specular_fresnel_falloff, &C::dual_specular_roughness_scale,
+                      &C::dual_specular_opacity, &C::diffuse_fresnel_tangent_falloff,
+                      &C::retroreflection_tangent_falloff, &C::smooth_terminator_length};
+  }
+  static consteval double at(std::string_view name) { return initial(kParameters, name); }
+
+  Rgb<S> base_color{S(at("base_color"))};
+  S metallic{at("metallic")};
+  S specular{at("specular")};
+  S roughness{at("roughness")};
+  S diffuse_fresnel{at("diffuse_fresnel")};
+  S diffuse_fresnel_falloff{at("diffuse_fresnel_falloff")};
+  S retroreflection{at("retroreflection")};
+  S retroreflection_falloff{at("retroreflection_falloff")};
+  S smooth_terminator{at("smooth_terminator")};
+  Rgb<S> diffuse_fresnel_tint{S(at("diffuse_fresnel_tint"))};
+  Rgb<S> retroreflection_tint{S(at("retroreflection_tint"))};
+  Rgb<S> smooth_terminator_tint{S(at("smooth_terminator_tint"))};
+  S specular_fresnel_falloff{at("specular_fresnel_falloff")};
+  S dual_specular_roughness_scale{at("dual_specular_roughness_scale")};
+  S dual_specular_opacity{at("dual_specular_opacity")};
+  S diffuse_fresnel_tangent_falloff{at("diffuse_fresnel_tangent_falloff")};
+  S retroreflection_tangent_falloff{at("retroreflection_tangent_falloff")};
+  S smooth_terminator_length{at("smooth_terminator_length")};
+
+  template <Scalar T>
+  Rgb<S> eval(const Geometry<T>& g) const {
+    const T cos_i = pick(g.above, g.cos_i, T(1)), cos_o = pick(g.above, g.cos_o, T(1));
+
+    // Masks of the diffuse Fresnel rise and of retroreflection.
+    const S rise = power5(g.versine_d, remap(diffuse_fresnel_falloff)) *
+                   power5(g.cos_h, remap(diffuse_fresnel_tangent_falloff));
+    const S retro = power5(g.versine_h, remap(retroreflection_falloff)) *
+                    power5(g.cos_d, remap(retroreflection_tangent_falloff));
+
+    // The terminator: smoothstep(0, end, cos_i), written so that end = 0 is a step and not 0 / 0.
+    const T mask = (T(1) - g.versine_d * g.versine_d * g.versine_d) * (T(1) - g.versine_h * g.versine_h * g.versine_h);
+    const S end = smooth_terminator_length * mask;
+    const auto inside = greater(end, cos_i);
+    const S u = pick(inside, S(cos_i / pick(inside, end, S(1))), S(1));
+    const S drop = (S(1) - u * u * (S(3) - (u + u))) * mask;
+
+    // Two GGX lobes; the Fresnel term multiplies both.
+    const S alpha = alpha_of_roughness(roughness);
+    const S alpha_2 = alpha_of_roughness(smaller(S(roughness * dual_specular_roughness_scale), S(1)));
+    const S lobe = mix(S(ggx_distribution(alpha, g.cos_h, g.sin2_h) * ggx_visibility(alpha, cos_i, cos_o)),
+                        S(ggx_distribution(alpha_2, g.cos_h, g.sin2_h) * ggx_visibility(alpha_2, cos_i, cos_o)),
+                        dual_specular_opacity);
+    const S r = remap(specular_fresnel_falloff);
+    const S fresnel = clamp01(S(S(2) - r)) * power5(g.versine_d, r);
+
+    const auto channel = [&](const S& rho, const S& rho_f, const S& rho_r, const S& o) {
+      const S f0 = mix(S(S(0.08) * specular), rho, metallic);
+      const S diffuse = rho * (S(1) - metallic) * S(std::numbers::inv_pi);
+      const S c1 = (S(1) + (rho_f - S(1)) * rise) * (S(1) + (rho_r - S(1)) * retro);
+      const S c2 = S(1) - drop * o;
+      return S(pick(g.above, S((c1 * diffuse + mix(f0, S(1), fresnel) * lobe) * c2), S(0)));
+    };
+    const Rgb<S> rho_f = diffuse_fresnel_tint * diffuse_fresnel;
+    const Rgb<S> rho_r = retroreflection_tint * retroreflection;
+    const Rgb<S> o = smooth_terminator_tint * smooth_terminator;
+    return {channel(base_color.r, rho_f.r, rho_r.r, o.r), channel(base_color.g, rho_f.g, rho_r.g, o.g),
+            channel(base_color.b, rho_f.b, rho_r.b, o.b)};
+  }
+  Rgb<S> eval(const Vec3<S>& to_light, const Vec3<S>& to_view) const { return eval(Geometry<S>(to_light, to_view)); }
+
+ private:
+  static S remap(const S& x) { return S(2) * (S(1) - x); }
+};
+
+}  // namespace likeness::brdf

@@ -1,0 +1,62 @@
+#pragma once
+
+#include "brdf/vector.h"
+
+namespace likeness::brdf {
+
+// A pair of directions and every angle of it that the models read, computed once and without
+// cancellation: sin theta_d = |l - v| / 2 and cos theta_d = |l + v| / 2 for unit l and v, and
+// 1 - cos x = sin^2 x / (1 + cos x), exact to rounding from theta = 0 to 90 degrees.
+//
+// Frame       local: z along the shading normal.
+// Directions  unit, both leaving the surface: to_light = omega_i, to_view = omega_o.
+// Half frame  Rusinkiewicz 1998 ("A New Change of Variables"): h = normalize(l + v),
+//             theta_h = angle(n, h), theta_d = angle(l, h).
+template <Scalar T>
+struct Geometry {
+  Vec3<T> to_light, to_view, half;
+  T cos_i, cos_o;                 // of the light's and the viewer's angle to the normal; may be <= 0
+  T cos_h, sin2_h, versine_h;     // of theta_h: cosine, squared sine, 1 - cosine
+  T cos_d, versine_d;             // of theta_d: cosine, 1 - cosine
+  decltype(greater(T(0.0), T(0.0))) above;  // a mask: both directions are above the horizon
+
+  // From directions in this precision.
+  Geometry(const Vec3<T>& l, const Vec3<T>& v)
+      : to_light(l), to_view(v), cos_i(l.z), cos_o(v.z), above(both(greater(l.z, T(0)), greater(v.z, T(0)))) {
+    const Vec3<T> sum = l + v, difference = l - v;
+    const T length = T(sqrt(larger(dot(sum, sum), T(squared(kTiny<T>)))));
+    half = sum * T(T(1) / length);
+    cos_h = larger(T(0), half.z);
+    sin2_h = half.x * half.x + half.y * half.y;
+    versine_h = sin2_h / (T(1) + cos_h);
+    cos_d = smaller(T(length * T(0.5)), T(1));
+    versine_d = smaller(T(dot(difference, difference) * T(0.25)), T(1)) / (T(1) + cos_d);
+  }
+
+  // A pair computed in double, rounded to this precision: nothing is lost to rounded directions.
+  template <class U>
+    requires std::constructible_from<T, U>
+  explicit Geometry(const Geometry<U>& g)
+      : to_light(g.to_light), to_view(g.to_view), half(g.half), cos_i(g.cos_i), cos_o(g.cos_o), cos_h(g.cos_h),
+        sin2_h(g.sin2_h), versine_h(g.versine_h), cos_d(g.cos_d), versine_d(g.versine_d), above(g.above) {}
+};
+
+// The pair of half-angle coordinates (radians), with the half vector in the x-z plane:
+// l = rotate_y(theta_h) rotate_z(phi_d) (sin theta_d, 0, cos theta_d), v its mirror about h. What depends
+// on theta_h or theta_d alone is taken from the angle, so that it loses nothing near a mirror peak.
+template <Scalar T>
+Geometry<T> geometry_at(const T& theta_h, const T& theta_d, const T& phi_d) {
+  const T sin_h = sin(theta_h), cos_h = cos(theta_h), sin_d = sin(theta_d), cos_d = cos(theta_d);
+  const T x = sin_d * cos(phi_d), y = sin_d * sin(phi_d);
+  Geometry<T> g(Vec3<T>{cos_h * x + sin_h * cos_d, y, cos_h * cos_d - sin_h * x},
+                Vec3<T>{sin_h * cos_d - cos_h * x, -y, cos_h * cos_d + sin_h * x});
+  g.half = Vec3<T>{sin_h, T(0), cos_h};
+  g.cos_h = cos_h;
+  g.sin2_h = sin_h * sin_h;
+  g.versine_h = T(2) * squared(T(sin(T(theta_h * T(0.5)))));
+  g.cos_d = cos_d;
+  g.versine_d = T(2) * squared(T(sin(T(theta_d * T(0.5)))));
+  return g;
+}
+
+}  // namespace likeness::brdf

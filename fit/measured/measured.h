@@ -1,0 +1,57 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "brdf/geometry.h"
+
+namespace likeness::measured {
+
+using Rgb = brdf::Rgb<double>;
+using Direction = brdf::Vec3<double>;  // unit, leaving the surface, z along the normal
+
+enum class Format { kMerl, kMbsdf, kRgl, kCsv };
+inline constexpr std::array<std::string_view, 4> kFormatNames{"MERL .binary", "NVIDIA .mbsdf", "RGL .bsdf", "CSV"};
+
+// One stored value of a measured material.
+struct Sample {
+  Direction to_light, to_view;
+  Rgb f;          // [1/sr], linear RGB, cosine not included
+  double weight;  // [sr^2]: sin theta_i sin theta_o d(theta_i) d(theta_o) d(phi) x 2 pi of the sample's cell, > 0
+};
+
+// How much of a file is data.
+struct Coverage {
+  std::size_t stored = 0;    // samples in the file
+  std::size_t valid = 0;     // finite, and not marked invalid or negative
+  std::size_t negative = 0;  // dropped: negative in a channel (MERL's mark of 'not measured', or noise)
+  std::size_t not_finite = 0;  // dropped: NaN or Inf in a channel
+};
+
+// An isotropic measured BRDF, whatever file it came from. Immutable once read; reading from several
+// threads at once is safe.
+class Material {
+ public:
+  virtual ~Material() = default;
+
+  // f(l, v) [1/sr]; false, and f untouched, where the file has no valid data for these directions.
+  virtual bool evaluate(const Direction& to_light, const Direction& to_view, Rgb& f) const = 0;
+
+  // Calls visit for every valid sample above the horizon, always in the same order.
+  virtual void for_each_sample(const std::function<void(const Sample&)>& visit) const = 0;
+
+  virtual Coverage coverage() const = 0;
+  virtual Format format() const = 0;
+  std::string source;  // the file as the user named it
+};
+
+// Reads a measured material; the format is told from the content, the extension only breaks ties.
+// Throws files::InputError.
+std::unique_ptr<Material> read(const std::filesystem::path& file);
+
+}  // namespace likeness::measured

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+// What every reader and writer of Likeness shares: the error for bad input, and files that are whole or absent.
+namespace likeness::files {
+
+// A file, or a part of one, that cannot be used. what() is one line: the file (and line or field, if there is
+// one), what was found, what was expected. The program ends with exit code 3.
+struct InputError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+// A request that cannot be met as it was put (an unknown model, a cut of 100 degrees). Exit code 2.
+struct UsageError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+// The bytes of a file of at most `limit` bytes. Throws InputError if it is absent, unreadable or larger.
+std::string read_whole(const std::filesystem::path& file, std::size_t limit);
+
+// Writes a file so that a reader sees the old content or the new, never a part: to a temporary name in the same
+// folder, then renamed. Makes missing parent folders. Throws std::runtime_error naming the file and the cause.
+void write_whole(const std::filesystem::path& file, std::string_view bytes);
+
+// The name among `names` that is nearest to `wanted` (edit distance), for 'did you mean'; empty if none is near.
+std::string nearest_name(std::string_view wanted, const std::string_view* names, std::size_t count);
+
+// The SHA-256 of some bytes, in hexadecimal: identifies an input in a result file.
+std::string sha256(std::string_view bytes);
+
+}  // namespace likeness::files
