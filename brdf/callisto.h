@@ -86,23 +86,23 @@ struct Callisto {
   static consteval double at(std::string_view name) { return initial(kParameters, name); }
 
   Rgb<S> base_color{S(at("base_color"))};
-  S metallic{at("metallic")};
-  S specular{at("specular")};
-  S roughness{at("roughness")};
-  S diffuse_fresnel{at("diffuse_fresnel")};
-  S diffuse_fresnel_falloff{at("diffuse_fresnel_falloff")};
-  S retroreflection{at("retroreflection")};
-  S retroreflection_falloff{at("retroreflection_falloff")};
-  S smooth_terminator{at("smooth_terminator")};
+  S metallic = S(at("metallic"));
+  S specular = S(at("specular"));
+  S roughness = S(at("roughness"));
+  S diffuse_fresnel = S(at("diffuse_fresnel"));
+  S diffuse_fresnel_falloff = S(at("diffuse_fresnel_falloff"));
+  S retroreflection = S(at("retroreflection"));
+  S retroreflection_falloff = S(at("retroreflection_falloff"));
+  S smooth_terminator = S(at("smooth_terminator"));
   Rgb<S> diffuse_fresnel_tint{S(at("diffuse_fresnel_tint"))};
   Rgb<S> retroreflection_tint{S(at("retroreflection_tint"))};
   Rgb<S> smooth_terminator_tint{S(at("smooth_terminator_tint"))};
-  S specular_fresnel_falloff{at("specular_fresnel_falloff")};
-  S dual_specular_roughness_scale{at("dual_specular_roughness_scale")};
-  S dual_specular_opacity{at("dual_specular_opacity")};
-  S diffuse_fresnel_tangent_falloff{at("diffuse_fresnel_tangent_falloff")};
-  S retroreflection_tangent_falloff{at("retroreflection_tangent_falloff")};
-  S smooth_terminator_length{at("smooth_terminator_length")};
+  S specular_fresnel_falloff = S(at("specular_fresnel_falloff"));
+  S dual_specular_roughness_scale = S(at("dual_specular_roughness_scale"));
+  S dual_specular_opacity = S(at("dual_specular_opacity"));
+  S diffuse_fresnel_tangent_falloff = S(at("diffuse_fresnel_tangent_falloff"));
+  S retroreflection_tangent_falloff = S(at("retroreflection_tangent_falloff"));
+  S smooth_terminator_length = S(at("smooth_terminator_length"));
 
   template <Scalar T>
   Rgb<S> eval(const Geometry<T>& g) const {

@@ -61,7 +61,7 @@ struct Ggx {
   };
   static constexpr auto members() { return std::tuple{&Ggx::f0, &Ggx::roughness}; }
   Rgb<S> f0{S(kParameters[0].initial)};
-  S roughness{kParameters[1].initial};
+  S roughness = S(kParameters[1].initial);  // not braces: they would pick a batch's list of lanes
 
   template <Scalar T>
   Rgb<S> eval(const Geometry<T>& g) const {
