@@ -104,42 +104,65 @@ struct Callisto {
   S retroreflection_tangent_falloff = S(at("retroreflection_tangent_falloff"));
   S smooth_terminator_length = S(at("smooth_terminator_length"));
 
+  // What a pair of directions contributes, the same for all three channels. Each term depends on at most
+  // three parameters, and none on the parameters of another: a fit differentiates them with short Jets.
+  template <Scalar X>
+  struct Terms {
+    X rise;     // mask of the diffuse Fresnel rise [0, 1]; falloffs n_f, m_f
+    X retro;    // mask of retroreflection [0, 1]; falloffs n_r, m_r
+    X drop;     // (1 - smoothstep) alpha_s of the terminator [0, 1]; length p
+    X lobe;     // the two GGX lobes without Fresnel [1/sr]; roughness, scale, opacity
+    X fresnel;  // weight of the specular's rise to white [0, 1]; falloff n_s
+  };
+
+  // Needs both directions above the horizon; elsewhere finite and meaningless.
   template <Scalar T>
-  Rgb<S> eval(const Geometry<T>& g) const {
+  Terms<S> terms(const Geometry<T>& g) const {
     const T cos_i = pick(g.above, g.cos_i, T(1)), cos_o = pick(g.above, g.cos_o, T(1));
+    Terms<S> t;
+    t.rise = power5(g.versine_d, remap(diffuse_fresnel_falloff)) *
+             power5(g.cos_h, remap(diffuse_fresnel_tangent_falloff));
+    t.retro = power5(g.versine_h, remap(retroreflection_falloff)) *
+              power5(g.cos_d, remap(retroreflection_tangent_falloff));
 
-    // Masks of the diffuse Fresnel rise and of retroreflection.
-    const S rise = power5(g.versine_d, remap(diffuse_fresnel_falloff)) *
-                   power5(g.cos_h, remap(diffuse_fresnel_tangent_falloff));
-    const S retro = power5(g.versine_h, remap(retroreflection_falloff)) *
-                    power5(g.cos_d, remap(retroreflection_tangent_falloff));
-
-    // The terminator: smoothstep(0, end, cos_i), written so that end = 0 is a step and not 0 / 0.
+    // smoothstep(0, end, cos_i), written so that end = 0 is a step and not 0 / 0.
     const T mask = (T(1) - g.versine_d * g.versine_d * g.versine_d) * (T(1) - g.versine_h * g.versine_h * g.versine_h);
     const S end = smooth_terminator_length * mask;
     const auto inside = greater(end, cos_i);
     const S u = pick(inside, S(cos_i / pick(inside, end, S(1))), S(1));
-    const S drop = (S(1) - u * u * (S(3) - (u + u))) * mask;
+    t.drop = (S(1) - u * u * (S(3) - (u + u))) * mask;
 
-    // Two GGX lobes; the Fresnel term multiplies both.
     const S alpha = alpha_of_roughness(roughness);
     const S alpha_2 = alpha_of_roughness(smaller(S(roughness * dual_specular_roughness_scale), S(1)));
-    const S lobe = mix(S(ggx_distribution(alpha, g.cos_h, g.sin2_h) * ggx_visibility(alpha, cos_i, cos_o)),
-                        S(ggx_distribution(alpha_2, g.cos_h, g.sin2_h) * ggx_visibility(alpha_2, cos_i, cos_o)),
-                        dual_specular_opacity);
-    const S r = remap(specular_fresnel_falloff);
-    const S fresnel = clamp01(S(S(2) - r)) * power5(g.versine_d, r);
+    t.lobe = mix(S(ggx_distribution(alpha, g.cos_h, g.sin2_h) * ggx_visibility(alpha, cos_i, cos_o)),
+                 S(ggx_distribution(alpha_2, g.cos_h, g.sin2_h) * ggx_visibility(alpha_2, cos_i, cos_o)),
+                 dual_specular_opacity);
 
-    const auto channel = [&](const S& rho, const S& rho_f, const S& rho_r, const S& o) {
-      const S f0 = mix(S(S(0.08) * specular), rho, metallic);
-      const S diffuse = rho * (S(1) - metallic) * S(std::numbers::inv_pi);
-      const S c1 = (S(1) + (rho_f - S(1)) * rise) * (S(1) + (rho_r - S(1)) * retro);
-      const S c2 = S(1) - drop * o;
-      return S(pick(g.above, S((c1 * diffuse + mix(f0, S(1), fresnel) * lobe) * c2), S(0)));
-    };
+    const S r = remap(specular_fresnel_falloff);
+    t.fresnel = clamp01(S(S(2) - r)) * power5(g.versine_d, r);
+    return t;
+  }
+
+  // One channel of f from its terms and that channel's reflectance and intensities.
+  template <Scalar X>
+  static X combine(const Terms<X>& t, const X& metallic, const X& specular, const X& rho, const X& rho_f,
+                   const X& rho_r, const X& o) {
+    const X f0 = mix(X(X(0.08) * specular), rho, metallic);
+    const X diffuse = rho * (X(1) - metallic) * X(std::numbers::inv_pi);
+    const X c1 = (X(1) + (rho_f - X(1)) * t.rise) * (X(1) + (rho_r - X(1)) * t.retro);
+    const X c2 = X(1) - t.drop * o;
+    return (c1 * diffuse + mix(f0, X(1), t.fresnel) * t.lobe) * c2;
+  }
+
+  template <Scalar T>
+  Rgb<S> eval(const Geometry<T>& g) const {
+    const Terms<S> t = terms(g);
     const Rgb<S> rho_f = diffuse_fresnel_tint * diffuse_fresnel;
     const Rgb<S> rho_r = retroreflection_tint * retroreflection;
     const Rgb<S> o = smooth_terminator_tint * smooth_terminator;
+    const auto channel = [&](const S& rho, const S& in_f, const S& in_r, const S& in_o) {
+      return S(pick(g.above, combine(t, metallic, specular, rho, in_f, in_r, in_o), S(0)));
+    };
     return {channel(base_color.r, rho_f.r, rho_r.r, o.r), channel(base_color.g, rho_f.g, rho_r.g, o.g),
             channel(base_color.b, rho_f.b, rho_r.b, o.b)};
   }
