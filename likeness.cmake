@@ -1,20 +1,92 @@
-# The one way a room declares its library:
+# The one way a room declares its library, and a test its program:
 #
 #   likeness_library(measured SOURCES merl.cc read.cc NEEDS likeness::brdf likeness::files [WITH Ceres::ceres])
+#   likeness_test(measured_test SOURCES merl_test.cc NEEDS likeness::measured [WITH TBB::tbb] [TIMEOUT 120])
 #
-# NEEDS names rooms, which is the order of the house (tests/layout_test reads it); WITH names packages that
-# stay private to the room's sources. The target is likeness::NAME; headers are included from the root.
+# NEEDS names rooms, which is the order of the house (tests/house/layout_test reads it from these lines); WITH names
+# packages. A room without SOURCES is header only, and its packages reach whoever uses it; otherwise they stay
+# private to the room's sources. The target is likeness::NAME; headers are included from the root of the repository.
 
+set(LIKENESS_WARNINGS -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion)
+if(LIKENESS_DEVELOPER)
+  list(APPEND LIKENESS_WARNINGS -Werror)
+endif()
 add_library(likeness_warnings INTERFACE)
 add_library(likeness::warnings ALIAS likeness_warnings)
-if(LIKENESS_DEVELOPER)
-  target_compile_options(likeness_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Werror)
+target_compile_options(likeness_warnings INTERFACE ${LIKENESS_WARNINGS})
+
+# Speed-ups that are used where they are found; -DCMAKE_CXX_COMPILER_LAUNCHER= (empty) builds without ccache.
+if(PROJECT_IS_TOP_LEVEL)
+  find_program(LIKENESS_CCACHE ccache)
+  if(LIKENESS_CCACHE AND NOT DEFINED CMAKE_CXX_COMPILER_LAUNCHER)
+    set(CMAKE_CXX_COMPILER_LAUNCHER ${LIKENESS_CCACHE})
+  endif()
+  find_program(LIKENESS_MOLD mold)
+  if(LIKENESS_MOLD)
+    add_link_options(-fuse-ld=mold)
+  endif()
 endif()
 
 function(likeness_library name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;NEEDS;WITH")
-  add_library(likeness_${name} STATIC ${arg_SOURCES})
-  add_library(likeness::${name} ALIAS likeness_${name})
-  target_include_directories(likeness_${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
-  target_link_libraries(likeness_${name} PUBLIC ${arg_NEEDS} PRIVATE ${arg_WITH} $<BUILD_INTERFACE:likeness_warnings>)
+  set(target likeness_${name})
+  if(arg_SOURCES)
+    add_library(${target} STATIC ${arg_SOURCES})
+    target_compile_options(${target} PRIVATE ${LIKENESS_WARNINGS})
+    target_link_libraries(${target} PUBLIC ${arg_NEEDS} PRIVATE ${arg_WITH})
+    set(reach PUBLIC)
+  else()
+    add_library(${target} INTERFACE)
+    target_link_libraries(${target} INTERFACE ${arg_NEEDS} ${arg_WITH})
+    set(reach INTERFACE)
+  endif()
+  add_library(likeness::${name} ALIAS ${target})
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
+  target_compile_features(${target} ${reach} cxx_std_20)
+  target_include_directories(${target} ${reach} $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
+                                                $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/likeness>)
+
+  # Each room is a component of the package, with an export of its own, so that one can be installed alone.
+  file(RELATIVE_PATH folder ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR})
+  file(GLOB headers CONFIGURE_DEPENDS *.h)
+  install(TARGETS ${target} EXPORT likeness-${name}-targets ARCHIVE COMPONENT ${name})
+  install(EXPORT likeness-${name}-targets NAMESPACE likeness:: COMPONENT ${name}
+          DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/likeness)
+  install(FILES ${headers} COMPONENT ${name} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/likeness/${folder})
+
+  # What likeness-config.cmake looks for: the rooms below, and the package of each imported target.
+  list(TRANSFORM arg_NEEDS REPLACE "^likeness::" "")
+  list(TRANSFORM arg_WITH REPLACE "::.*$" "")
+  string(CONCAT rooms "set(likeness_${name}_needs ${arg_NEEDS})\n" "set(likeness_${name}_packages ${arg_WITH})\n")
+  string(REPLACE ";" " " rooms "${rooms}")
+  set_property(GLOBAL APPEND_STRING PROPERTY LIKENESS_ROOMS "${rooms}")
+endfunction()
+
+# Installs the package file that find_package(likeness CONFIG [COMPONENTS brdf fit ...]) reads. It travels with brdf,
+# which every other room stands on.
+function(likeness_package)
+  include(CMakePackageConfigHelpers)
+  get_property(LIKENESS_ROOMS GLOBAL PROPERTY LIKENESS_ROOMS)
+  set(folder ${CMAKE_INSTALL_LIBDIR}/cmake/likeness)
+  configure_package_config_file(likeness-config.cmake.in likeness-config.cmake INSTALL_DESTINATION ${folder}
+                                NO_SET_AND_CHECK_MACRO NO_CHECK_REQUIRED_COMPONENTS_MACRO)
+  write_basic_package_version_file(likeness-config-version.cmake COMPATIBILITY SameMinorVersion)
+  install(FILES ${PROJECT_BINARY_DIR}/likeness-config.cmake ${PROJECT_BINARY_DIR}/likeness-config-version.cmake
+          COMPONENT brdf DESTINATION ${folder})
+endfunction()
+
+# One program, one entry of CTest: a process that loads OpenImageIO costs 0.3 s before its first line. The data that
+# developers share lies beside the checkout; a test that finds none says so and skips.
+function(likeness_test name)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "TIMEOUT" "SOURCES;NEEDS;WITH")
+  if(NOT arg_TIMEOUT)
+    set(arg_TIMEOUT 120)
+  endif()
+  add_executable(${name} ${arg_SOURCES})
+  target_compile_definitions(${name} PRIVATE LIKENESS_SHARED_DIR="${LIKENESS_SHARED_DIR}"
+                                             LIKENESS_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  target_link_libraries(${name} PRIVATE likeness::warnings ${arg_NEEDS} ${arg_WITH} GTest::gtest_main)
+  target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR})
+  add_test(NAME ${name} COMMAND ${name})
+  set_tests_properties(${name} PROPERTIES TIMEOUT ${arg_TIMEOUT})
 endfunction()
