@@ -147,8 +147,8 @@ struct Callisto {
   template <Scalar X>
   static X combine(const Terms<X>& t, const X& metallic, const X& specular, const X& rho, const X& rho_f,
                    const X& rho_r, const X& o) {
-    const X f0 = mix(X(X(0.08) * specular), rho, metallic);
-    const X diffuse = rho * (X(1) - metallic) * X(std::numbers::inv_pi);
+    const X f0 = mix(X(constant<X>(0.08) * specular), rho, metallic);
+    const X diffuse = rho * (X(1) - metallic) * constant<X>(std::numbers::inv_pi);
     const X c1 = (X(1) + (rho_f - X(1)) * t.rise) * (X(1) + (rho_r - X(1)) * t.retro);
     const X c2 = X(1) - t.drop * o;
     return (c1 * diffuse + mix(f0, X(1), t.fresnel) * t.lobe) * c2;

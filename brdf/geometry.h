@@ -11,7 +11,7 @@ namespace likeness::brdf {
 // Frame       local: z along the shading normal.
 // Directions  unit, both leaving the surface: to_light = omega_i, to_view = omega_o.
 // Half frame  Rusinkiewicz 1998 ("A New Change of Variables"): h = normalize(l + v),
-//             theta_h = angle(n, h), theta_d = angle(l, h).
+//             theta_h = angle(n, h), theta_d = angle(l, h). For opposite directions, which have no h, h = n.
 template <Scalar T>
 struct Geometry {
   Vec3<T> to_light, to_view, half;
@@ -24,8 +24,11 @@ struct Geometry {
   Geometry(const Vec3<T>& l, const Vec3<T>& v)
       : to_light(l), to_view(v), cos_i(l.z), cos_o(v.z), above(both(greater(l.z, T(0)), greater(v.z, T(0)))) {
     const Vec3<T> sum = l + v, difference = l - v;
-    const T length = T(sqrt(larger(dot(sum, sum), T(squared(kTiny<T>)))));
-    half = sum * T(T(1) / length);
+    const T length2 = dot(sum, sum);
+    const auto usable = greater(length2, constant<T>(squared(kTiny<T>)));
+    const T length = T(sqrt(pick(usable, length2, constant<T>(squared(kTiny<T>)))));
+    half = Vec3<T>{pick(usable, T(sum.x / length), T(0)), pick(usable, T(sum.y / length), T(0)),
+                   pick(usable, T(sum.z / length), T(1))};
     cos_h = larger(T(0), half.z);
     sin2_h = half.x * half.x + half.y * half.y;
     versine_h = sin2_h / (T(1) + cos_h);

@@ -12,7 +12,7 @@ namespace likeness::brdf {
 // (1 / (pi alpha^2) = 3.2e7) and V together are still far from the largest float.
 template <Scalar S>
 S alpha_of_roughness(const S& roughness) {
-  return larger(S(roughness * roughness), S(1e-4));
+  return larger(S(roughness * roughness), constant<S>(1e-4));
 }
 
 // GGX distribution of normals D(h), [1/sr], isotropic: alpha^2 / (pi (sin^2 + alpha^2 cos^2)^2). With
@@ -22,18 +22,18 @@ template <Scalar S, Scalar T>
 S ggx_distribution(const S& alpha, const T& cos_h, const T& sin2_h) {
   const S alpha2 = alpha * alpha;
   const S e = alpha2 * T(cos_h * cos_h) + sin2_h;
-  return alpha2 / (e * e * T(std::numbers::pi));
+  return alpha2 / (e * e * constant<T>(std::numbers::pi));
 }
 
 // G2 / (4 cos_i cos_o), [1], height-correlated Smith: 1 / (2 (cos_o s(cos_i) + cos_i s(cos_o))) with
-// s(c) = sqrt(alpha^2 + (1 - alpha^2) c^2). Finite for any cosines that are not both 0.
+// s(c) = sqrt(alpha^2 + (1 - alpha^2) c^2). Finite for any cosines, because the denominator is kept above kTiny.
 // Source  Heitz 2014 (JCGT 3(2)) eq. 99 with Lambda of eq. 72, multiplied through by the cosines.
 template <Scalar S, Scalar T>
 S ggx_visibility(const S& alpha, const T& cos_i, const T& cos_o) {
   const S alpha2 = alpha * alpha, rest = S(1) - alpha2;
   const S s_i = sqrt(S(alpha2 + rest * T(cos_i * cos_i)));
   const S s_o = sqrt(S(alpha2 + rest * T(cos_o * cos_o)));
-  return S(0.5) / (s_i * cos_o + s_o * cos_i);
+  return S(0.5) / larger(S(s_i * cos_o + s_o * cos_i), constant<S>(kTiny<S>));
 }
 
 // Schlick's weight of the rise to white, (1 - cos_d)^5, from 1 - cos_d.
@@ -60,7 +60,7 @@ struct Ggx {
                 .text = "square root of the slope roughness alpha; alpha is kept above 1e-4"},
   };
   static constexpr auto members() { return std::tuple{&Ggx::f0, &Ggx::roughness}; }
-  Rgb<S> f0{S(kParameters[0].initial)};
+  Rgb<S> f0{constant<S>(kParameters[0].initial)};
   S roughness = S(kParameters[1].initial);  // not braces: they would pick a batch's list of lanes
 
   template <Scalar T>

@@ -34,14 +34,14 @@ struct Arithmetic<ceres::Jet<T, N>> {
  private:
   // The Jet of value = x^(times e).
   static Jet derived(const Jet& x, const T& value, const Jet& e, const T& times) {
-    const auto usable = x.a > T(kTiny<Jet>);
+    const auto usable = x.a > constant<T>(kTiny<Jet>);
     const T base = brdf::pick(usable, x.a, T(1));
     const T in_x = brdf::pick(usable, T(times * e.a * value / base), T(0));
     const T in_e = times * value * log(base);
     return {value, in_x * x.v + in_e * e.v};
   }
   static Jet derived(const T& x, const T& value, const Jet& e, const T& times) {
-    const T base = brdf::pick(x > T(kTiny<Jet>), x, T(1));
+    const T base = brdf::pick(x > constant<T>(kTiny<Jet>), x, T(1));
     const T in_e = times * value * log(base);
     return {value, in_e * e.v};
   }

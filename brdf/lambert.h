@@ -25,7 +25,7 @@ struct Lambert {
 
   template <Scalar T>
   Rgb<S> eval(const Geometry<T>& g) const {
-    const T weight = pick(g.above, T(std::numbers::inv_pi), T(0));
+    const T weight = pick(g.above, constant<T>(std::numbers::inv_pi), T(0));
     return base_color * weight;
   }
   Rgb<S> eval(const Vec3<S>& to_light, const Vec3<S>& to_view) const { return eval(Geometry<S>(to_light, to_view)); }

@@ -7,9 +7,8 @@
 // The arithmetic that every evaluator is written in, so that one source serves float, double,
 // ceres::Jet (include brdf/jet.h) and SIMD batches (include brdf/batch.h), in any include order.
 //
-// Rules for code that uses it: S(2) instead of 2 beside an S; greater(a, b) and pick(mask, a, b) instead
-// of `if` on a value; both arguments of pick must be finite, because a Jet multiplies the discarded
-// one's derivative by zero.
+// Rules for code that uses it: S(2) instead of 2 beside an S, and constant<S>(0.3) where a float has to
+// round; greater(a, b) and pick(mask, a, b) instead of `if` on a value.
 namespace likeness::brdf {
 
 // A type that evaluators can compute with: arithmetic, and a construction from a double.
@@ -43,6 +42,12 @@ struct Arithmetic {
 
 template <class S>
 using Value = typename Arithmetic<S>::Value;
+
+// A literal as S, rounded once to the number inside (float, for a batch or a Jet of floats).
+template <Scalar S>
+S constant(double x) {
+  return S(static_cast<typename Arithmetic<S>::Number>(x));
+}
 
 // The smallest number that a denominator or a base may take: the reciprocal of its square is finite.
 template <class S>
@@ -89,7 +94,7 @@ S clamp01(const S& x) {
 // sqrt(x) for x >= 0 with a derivative that stays finite at 0 (there it is 0, not infinity).
 template <Scalar S>
 S safe_sqrt(const S& x) {
-  const auto usable = greater(x, S(kTiny<S>));
+  const auto usable = greater(x, constant<S>(kTiny<S>));
   return pick(usable, S(sqrt(pick(usable, x, S(1)))), S(0));
 }
 

@@ -1,0 +1,155 @@
+#pragma once
+
+#include <array>
+#include <numbers>
+
+#include "brdf/burley_diffuse.h"
+#include "brdf/geometry.h"
+#include "brdf/ggx.h"
+#include "brdf/parameter.h"
+
+namespace likeness::brdf {
+
+// GGX distribution of normals D(h), [1/sr], anisotropic. Multiplied through by alpha_x alpha_y, so that
+// alpha_x = alpha_y has the bits of ggx_distribution on sin^2 = x^2 + y^2, and so that nothing is divided
+// by a small alpha.
+// Source  Burley 2012, appendix B.2 (GTR, gamma = 2). Holds: integral of D cos = 1.
+template <Scalar S, Scalar T>
+S ggx_distribution_anisotropic(const S& alpha_x, const S& alpha_y, const Vec3<T>& half, const T& cos_h) {
+  const S area = alpha_x * alpha_y;
+  const S across = alpha_y / alpha_x * T(half.x * half.x) + alpha_x / alpha_y * T(half.y * half.y);
+  const S e = area * T(cos_h * cos_h) + across;
+  return area / (e * e * constant<T>(std::numbers::pi));
+}
+
+// Berry's distribution (GTR with gamma = 1) D(h), [1/sr], isotropic, 0 < alpha < 1: the clearcoat's long tail.
+// Source  Burley 2012, appendix B.2 (GTR, gamma = 1), written in sin^2 and cos^2. Holds: integral of D cos = 1.
+template <Scalar S, Scalar T>
+S gtr1_distribution(const S& alpha, const T& cos_h, const T& sin2_h) {
+  const S alpha2 = alpha * alpha;
+  const S e = alpha2 * T(cos_h * cos_h) + sin2_h;
+  return (alpha2 - S(1)) / (S(log(alpha2)) * e * constant<T>(std::numbers::pi));
+}
+
+// Smith's masking of one direction divided by 2 cos: 1 / (cos + sqrt(alpha^2 + (1 - alpha^2) cos^2)), [1].
+// Two of them, light times view, are G / (4 cos_i cos_o) of uncorrelated shadowing and masking.
+// Source  Walter 2007 eq. 34, divided by 2 cos.
+template <Scalar S, Scalar T>
+S ggx_masking(const S& alpha, const T& c) {
+  const S alpha2 = alpha * alpha;
+  return S(1) / (S(sqrt(S(alpha2 + (S(1) - alpha2) * T(c * c)))) + c);
+}
+
+// Disney's "principled" BRDF of 2012, all of it: Burley's diffuse or its flatter 'subsurface' variant, sheen,
+// one anisotropic GGX lobe and a clearcoat; [1/sr], cosine not included.
+//
+//     f = (mix(f_d, f_ss, subsurface) rho / pi + f_sheen) (1 - metallic) + F D G' + clearcoat / 4 F_c D_c G'_c
+//     f_d      Burley's diffuse factor, [1] (burley_diffuse.h)
+//     f_ss     1.25 (F_ss (1 / (cos_i + cos_o) - 1/2) + 1/2), F_ss as f_d with F_SS90 = roughness cos^2 theta_d
+//     f_sheen  sheen mix(1, tint, sheen_tint) (1 - cos theta_d)^5,     tint = rho / luminance(rho)
+//     F        Schlick, f0 = mix(0.08 specular mix(1, tint, specular_tint), rho, metallic)
+//     D        GGX, alpha_x = roughness^2 / aspect, alpha_y = roughness^2 aspect, aspect^2 = 1 - 0.9 anisotropic
+//     G'       Smith's G1(l) G1(v) / (4 cos_i cos_o) with its own alpha_g = (0.5 + roughness / 2)^2
+//     F_c D_c  Schlick, f0 = 0.04; GTR1 with alpha from 0.1 (gloss 0) to 0.001 (gloss 1); G'_c with alpha_g = 0.25
+//
+// Source      Burley, "Physically-Based Shading at Disney", SIGGRAPH 2012 course, sections 5.3 to 5.6 and appendix
+//             B.2; what the notes leave out (tint, subsurface, clearcoat constants) as in Disney's BRDF Explorer.
+// Departures  base_color is linear, where BRDF Explorer takes a display color to the power 2.2. G stays the
+//             original's remapped one, isotropic also under an anisotropic D; later versions follow alpha_x, alpha_y.
+//             Values past 1 of clearcoat are allowed: published fits use 3.
+// Frame       local: z along the shading normal, x along the tangent of alpha_x (the longer highlight), y of alpha_y.
+// Directions  unit, both leaving the surface. If either is at or below the horizon, f = 0.
+// Holds       f(l, v) = f(v, l); at anisotropic = 0, f does not depend on the tangent.
+// Does not    conserve energy (sheen and clearcoat are added, f_d exceeds 1 when rough). tint has no limit at black:
+//             there it is white, while the darkest non-black color keeps its hue.
+template <Scalar S>
+struct Disney2012 {
+  static constexpr std::string_view kName = "disney2012";
+  static constexpr std::array kParameters{
+      Parameter{.name = "base_color", .initial = 0.5, .range = {0, 1}, .typical = {0.02, 0.9},
+                .role = Role::kScale, .channels = 3,
+                .text = "rho: diffuse color of the dielectric part, f0 of the metallic part, linear RGB"},
+      Parameter{.name = "subsurface", .initial = 0, .range = {0, 1}, .typical = {0, 1}, .role = Role::kMix,
+                .text = "0 Burley's diffuse, 1 its flatter variant that stands for scattering below the surface"},
+      Parameter{.name = "metallic", .initial = 0, .range = {0, 1}, .typical = {0, 1}, .role = Role::kMix,
+                .text = "0 dielectric, 1 metal: moves f0 to base_color, removes diffuse and sheen"},
+      Parameter{.name = "specular", .initial = 0.5, .range = {0, 1}, .typical = {0.1, 1}, .role = Role::kScale,
+                .text = "f0 of the dielectric part, divided by 0.08"},
+      Parameter{.name = "specular_tint", .initial = 0, .range = {0, 1}, .typical = {0, 1}, .role = Role::kMix,
+                .text = "moves the dielectric f0 from white to the hue of base_color"},
+      Parameter{.name = "roughness", .initial = 0.5, .range = {0, 1}, .typical = {0.05, 0.9},
+                .text = "of the diffuse and of the specular lobe; its square is the GGX alpha, kept above 0.001"},
+      Parameter{.name = "anisotropic", .initial = 0, .range = {0, 1}, .typical = {0, 0.8},
+                .text = "stretches the highlight along x: at 1 alpha_x is ten times alpha_y"},
+      Parameter{.name = "sheen", .initial = 0, .range = {0, 1}, .typical = {0, 1}, .role = Role::kScale,
+                .text = "added towards theta_d = 90 deg, for cloth"},
+      Parameter{.name = "sheen_tint", .initial = 0.5, .range = {0, 1}, .typical = {0, 1}, .role = Role::kMix,
+                .text = "moves the sheen from white to the hue of base_color"},
+      Parameter{.name = "clearcoat", .initial = 0, .range = {0, 4}, .typical = {0, 1}, .role = Role::kScale,
+                .text = "strength of a second, white lobe; the paper's range ends at 1, published fits reach 3"},
+      Parameter{.name = "clearcoat_gloss", .initial = 1, .range = {0, 1}, .typical = {0, 1},
+                .text = "0 satin (alpha 0.1), 1 gloss (alpha 0.001)"},
+  };
+  static constexpr auto members() {
+    using D = Disney2012;
+    return std::tuple{&D::base_color, &D::subsurface, &D::metallic, &D::specular, &D::specular_tint, &D::roughness,
+                      &D::anisotropic, &D::sheen, &D::sheen_tint, &D::clearcoat, &D::clearcoat_gloss};
+  }
+  static consteval double at(std::string_view name) { return initial(kParameters, name); }
+
+  Rgb<S> base_color{S(at("base_color"))};
+  S subsurface = S(at("subsurface"));
+  S metallic = S(at("metallic"));
+  S specular = S(at("specular"));
+  S specular_tint = S(at("specular_tint"));
+  S roughness = S(at("roughness"));
+  S anisotropic = S(at("anisotropic"));
+  S sheen = S(at("sheen"));
+  S sheen_tint = S(at("sheen_tint"));
+  S clearcoat = S(at("clearcoat"));
+  S clearcoat_gloss = S(at("clearcoat_gloss"));
+
+  template <Scalar T>
+  Rgb<S> eval(const Geometry<T>& g) const {
+    const T cos_i = pick(g.above, g.cos_i, T(1)), cos_o = pick(g.above, g.cos_o, T(1));
+    const T fresnel = schlick_weight(g.versine_d);
+
+    // Diffuse: Burley's, or the flatter Hanrahan-Krueger shape scaled by 1.25 to about the same albedo.
+    const S at_grazing = burley_at_grazing(roughness, g.cos_d);
+    const S flat = burley_grazing(S(at_grazing - S(0.5)) * S(0.5), cos_i, cos_o);
+    const T lift = T(1) / larger(T(cos_i + cos_o), constant<T>(kTiny<T>)) - T(0.5);
+    const S diffuse = mix(burley_grazing(at_grazing, cos_i, cos_o), S(S(1.25) * (flat * lift + S(0.5))), subsurface) *
+                      constant<T>(std::numbers::inv_pi);
+
+    // Specular: one lobe for all channels, the Fresnel term in each.
+    const S alpha = roughness * roughness, aspect = sqrt(S(S(1) - constant<S>(0.9) * anisotropic));
+    const S alpha_x = larger(S(alpha / aspect), constant<S>(0.001));
+    const S alpha_y = larger(S(alpha * aspect), constant<S>(0.001));
+    const S alpha_g = squared(S(S(0.5) + S(0.5) * roughness));
+    const S lobe = ggx_distribution_anisotropic(alpha_x, alpha_y, g.half, g.cos_h) * ggx_masking(alpha_g, cos_i) *
+                   ggx_masking(alpha_g, cos_o);
+
+    // Clearcoat: white, of fixed index (f0 = 0.04) and fixed masking.
+    const T coat_fresnel = mix(constant<T>(0.04), T(1), fresnel);
+    const T coat_masking = ggx_masking(T(0.25), cos_i) * ggx_masking(T(0.25), cos_o);
+    const S coat_alpha = mix(constant<S>(0.1), constant<S>(0.001), clearcoat_gloss);
+    const S coat = S(0.25) * clearcoat * gtr1_distribution(coat_alpha, g.cos_h, g.sin2_h) *
+                   T(coat_fresnel * coat_masking);
+
+    const S luminance = constant<S>(0.3) * base_color.r + constant<S>(0.6) * base_color.g +
+                        constant<S>(0.1) * base_color.b;
+    const auto has_hue = greater(luminance, constant<S>(kTiny<S>));
+    const S over_luminance = S(1) / pick(has_hue, luminance, S(1));
+    const auto channel = [&](const S& rho) {
+      const S tint = pick(has_hue, S(rho * over_luminance), S(1));
+      const S f0 = mix(S(constant<S>(0.08) * specular * mix(S(1), tint, specular_tint)), rho, metallic);
+      const S sheen_color = sheen * mix(S(1), tint, sheen_tint) * fresnel;
+      const S below = (diffuse * rho + sheen_color) * (S(1) - metallic);
+      return S(pick(g.above, S(below + mix(f0, S(1), fresnel) * lobe + coat), S(0)));
+    };
+    return {channel(base_color.r), channel(base_color.g), channel(base_color.b)};
+  }
+  Rgb<S> eval(const Vec3<S>& to_light, const Vec3<S>& to_view) const { return eval(Geometry<S>(to_light, to_view)); }
+};
+
+}  // namespace likeness::brdf
