@@ -20,16 +20,24 @@ struct Arithmetic<xsimd::batch<T, A>> {
     return xsimd::select(mask, a, b);
   }
   static Batch power(const Batch& x, const Batch& e) {
-    const auto usable = x > Batch(T(0));
-    const Batch raised = exp_log(xsimd::select(usable, x, Batch(T(1))), e);
-    return xsimd::select(e > Batch(T(0)), xsimd::select(usable, raised, Batch(T(0))), Batch(T(1)));
+    Batch log_x;
+    return power(x, e, log_x);
   }
   static Batch power5(const Batch& x, const Batch& r) {
-    return xsimd::select(r == Batch(T(1)), x * x * x * x * x, power(x, Batch(T(5)) * r));
+    Batch log_x;
+    return power5(x, r, log_x);
   }
-
- private:
-  static Batch exp_log(const Batch& x, const Batch& e) { return xsimd::exp(e * xsimd::log(x)); }
+  // The same, with ln x (0 where x is 0), which a derivative needs as well.
+  static Batch power(const Batch& x, const Batch& e, Batch& log_x) {
+    const auto usable = x > Batch(T(0));
+    log_x = xsimd::log(xsimd::select(usable, x, Batch(T(1))));
+    const Batch raised = xsimd::exp(e * log_x);
+    return xsimd::select(e > Batch(T(0)), xsimd::select(usable, raised, Batch(T(0))), Batch(T(1)));
+  }
+  static Batch power5(const Batch& x, const Batch& r, Batch& log_x) {
+    const Batch raised = power(x, Batch(T(5)) * r, log_x);
+    return xsimd::select(r == Batch(T(1)), x * x * x * x * x, raised);
+  }
 };
 
 }  // namespace likeness::brdf

@@ -26,24 +26,25 @@ struct Arithmetic<ceres::Jet<T, N>> {
   }
 
   // d(x^e) = x^e ln x de + e x^(e - 1) dx, both taken as 0 where x is 0 (dx would be infinite for e < 1).
-  static Jet power(const Jet& x, const Jet& e) { return derived(x, Arithmetic<T>::power(x.a, e.a), e, T(1)); }
-  static Jet power(const T& x, const Jet& e) { return derived(x, Arithmetic<T>::power(x, e.a), e, T(1)); }
-  static Jet power5(const Jet& x, const Jet& r) { return derived(x, Arithmetic<T>::power5(x.a, r.a), r, T(5)); }
-  static Jet power5(const T& x, const Jet& r) { return derived(x, Arithmetic<T>::power5(x, r.a), r, T(5)); }
+  static Jet power(const Jet& x, const Jet& e) { return with_slope(power(x.a, e), e.a, x); }
+  static Jet power(const T& x, const Jet& e) {
+    T log_x(0.0);
+    const T value = Arithmetic<T>::power(x, e.a, log_x);
+    return {value, T(value * log_x) * e.v};
+  }
+  static Jet power5(const Jet& x, const Jet& r) { return with_slope(power5(x.a, r), T(T(5) * r.a), x); }
+  static Jet power5(const T& x, const Jet& r) {
+    T log_x(0.0);
+    const T value = Arithmetic<T>::power5(x, r.a, log_x);
+    return {value, T(T(5) * value * log_x) * r.v};
+  }
 
  private:
-  // The Jet of value = x^(times e).
-  static Jet derived(const Jet& x, const T& value, const Jet& e, const T& times) {
-    const auto usable = x.a > constant<T>(kTiny<Jet>);
-    const T base = brdf::pick(usable, x.a, T(1));
-    const T in_x = brdf::pick(usable, T(times * e.a * value / base), T(0));
-    const T in_e = times * value * log(base);
-    return {value, in_x * x.v + in_e * e.v};
-  }
-  static Jet derived(const T& x, const T& value, const Jet& e, const T& times) {
-    const T base = brdf::pick(x > constant<T>(kTiny<Jet>), x, T(1));
-    const T in_e = times * value * log(base);
-    return {value, in_e * e.v};
+  static Jet with_slope(Jet raised, const T& e, const Jet& x) {
+    const auto usable = x.a > T(kTiny<Jet>);
+    const T slope = brdf::pick(usable, T(e * raised.a / brdf::pick(usable, x.a, T(1))), T(0));
+    raised.v += slope * x.v;
+    return raised;
   }
 };
 

@@ -38,6 +38,15 @@ struct Arithmetic {
   static S pick(bool mask, const S& a, const S& b) { return mask ? a : b; }
   static S power(S x, S e) { return e > S(0) ? (x > S(0) ? S(std::pow(x, e)) : S(0)) : S(1); }
   static S power5(S x, S r) { return r == S(1) ? x * x * x * x * x : power(x, S(5) * r); }
+  // The same, with ln x (0 where x is 0), which a derivative needs as well.
+  static S power(S x, S e, S& log_x) {
+    log_x = x > S(0) ? std::log(x) : S(0);
+    return power(x, e);
+  }
+  static S power5(S x, S r, S& log_x) {
+    log_x = x > S(0) ? std::log(x) : S(0);
+    return power5(x, r);
+  }
 };
 
 template <class S>
