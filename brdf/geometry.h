@@ -25,13 +25,13 @@ struct Geometry {
       : to_light(l), to_view(v), cos_i(l.z), cos_o(v.z), above(both(greater(l.z, T(0)), greater(v.z, T(0)))) {
     const Vec3<T> sum = l + v, difference = l - v;
     const T length2 = dot(sum, sum);
-    const auto usable = greater(length2, constant<T>(squared(kTiny<T>)));
-    const T length = T(sqrt(pick(usable, length2, constant<T>(squared(kTiny<T>)))));
+    const auto usable = greater(length2, constant<T>(kTiny<T> * kTiny<T>));
+    const T length = T(sqrt(pick(usable, length2, constant<T>(kTiny<T> * kTiny<T>))));
     half = Vec3<T>{pick(usable, T(sum.x / length), T(0)), pick(usable, T(sum.y / length), T(0)),
                    pick(usable, T(sum.z / length), T(1))};
-    cos_h = larger(T(0), half.z);
+    cos_h = clamp01(half.z);
     sin2_h = half.x * half.x + half.y * half.y;
-    versine_h = sin2_h / (T(1) + cos_h);
+    versine_h = smaller(T(sin2_h / (T(1) + cos_h)), T(1));
     cos_d = smaller(T(length * T(0.5)), T(1));
     versine_d = smaller(T(dot(difference, difference) * T(0.25)), T(1)) / (T(1) + cos_d);
   }
@@ -40,8 +40,9 @@ struct Geometry {
   template <class U>
     requires std::constructible_from<T, U>
   explicit Geometry(const Geometry<U>& g)
-      : to_light(g.to_light), to_view(g.to_view), half(g.half), cos_i(g.cos_i), cos_o(g.cos_o), cos_h(g.cos_h),
-        sin2_h(g.sin2_h), versine_h(g.versine_h), cos_d(g.cos_d), versine_d(g.versine_d), above(g.above) {}
+      : to_light(g.to_light), to_view(g.to_view), half(g.half), cos_i(T(g.cos_i)), cos_o(T(g.cos_o)),
+        cos_h(T(g.cos_h)), sin2_h(T(g.sin2_h)), versine_h(T(g.versine_h)), cos_d(T(g.cos_d)),
+        versine_d(T(g.versine_d)), above(g.above) {}
 };
 
 // The pair of half-angle coordinates (radians), with the half vector in the x-z plane:

@@ -15,7 +15,7 @@ struct Vec3 {
   Vec3() : x(0.0), y(0.0), z(0.0) {}
   Vec3(const S& x_, const S& y_, const S& z_) : x(x_), y(y_), z(z_) {}
   template <class T>
-  explicit Vec3(const Vec3<T>& v) : x(v.x), y(v.y), z(v.z) {}
+  explicit Vec3(const Vec3<T>& v) : x(S(v.x)), y(S(v.y)), z(S(v.z)) {}
   template <class T, glm::qualifier Q>
     requires std::same_as<T, S>
   Vec3(const glm::vec<3, T, Q>& v) : x(v.x), y(v.y), z(v.z) {}  // NOLINT(google-explicit-constructor)
