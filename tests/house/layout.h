@@ -18,8 +18,8 @@ struct Room {
 std::map<std::string, Room> rooms_of(const Tree& tree);
 
 // One line each, "path:line: what is wrong, and the way out"; empty if the house stands.
-std::vector<std::string> upward_includes(const Tree& tree);   // a file includes a room that its room does not need
-std::vector<std::string> misplaced_files(const Tree& tree);   // unknown folders and root files, names that say nothing
+std::vector<std::string> upward_includes(const Tree& tree);  // a file includes a room that its room does not need
+std::vector<std::string> misplaced_files(const Tree& tree);  // unknown folders and root files, names that say nothing
 std::vector<std::string> oversized_files(const Tree& tree, int most_lines);
 std::vector<std::string> dead_or_postponed_code(const Tree& tree);
 std::vector<std::string> machine_paths(const Tree& tree);

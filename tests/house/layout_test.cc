@@ -25,13 +25,15 @@ Tree this_repository() {
     std::string content{std::istreambuf_iterator<char>(in), {}};
     if (in && content.find('\0') == std::string::npos) tree[path] = std::move(content);
   };
-  const std::string list = "git -C '" + root.string() + "' ls-files -z --cached --others --exclude-standard 2>/dev/null";
+  const std::string list =
+      "git -C '" + root.string() + "' ls-files -z --cached --others --exclude-standard 2>/dev/null";
   const std::unique_ptr<FILE, int (*)(FILE*)> pipe(popen(list.c_str(), "r"), pclose);
   std::string paths;
   std::array<char, 4096> block;
   while (const std::size_t count = pipe ? std::fread(block.data(), 1, block.size(), pipe.get()) : 0)
     paths.append(block.data(), count);
-  for (std::size_t at = 0, end; (end = paths.find('\0', at)) != std::string::npos; at = end + 1) add(paths.substr(at, end - at));
+  for (std::size_t at = 0, end; (end = paths.find('\0', at)) != std::string::npos; at = end + 1)
+    add(paths.substr(at, end - at));
   if (!tree.empty()) return tree;
   for (auto at = fs::recursive_directory_iterator(root); at != fs::recursive_directory_iterator(); ++at) {
     const std::string path = at->path().lexically_relative(root).generic_string();
@@ -55,7 +57,8 @@ std::string joined(const std::vector<std::string>& faults) {
 // Three rooms one above the other, as the repository declares them.
 Tree small_house() {
   return {
-      {"brdf/CMakeLists.txt", "# likeness_library(nothing NEEDS likeness::fit)\nlikeness_library(brdf WITH glm::glm)\n"},
+      {"brdf/CMakeLists.txt",
+       "# likeness_library(nothing NEEDS likeness::fit)\nlikeness_library(brdf WITH glm::glm)\n"},
       {"brdf/ggx.h", "#pragma once\n"},
       {"fit/CMakeLists.txt", "likeness_library(fit SOURCES fit.cc\n  NEEDS likeness::measured WITH Ceres::ceres)\n"},
       {"fit/fit.cc", "#include <vector>\n#include \"fit/measured/merl.h\"\n#include \"brdf/ggx.h\"\n"},
@@ -75,7 +78,9 @@ TEST(ThisRepository, IncludesOnlyDownwards) {
   ASSERT_TRUE(rooms_of(repository()).contains("brdf")) << "the rooms' CMakeLists.txt were not read";
   EXPECT_EQ(joined(upward_includes(repository())), "");
 }
-TEST(ThisRepository, HasEveryFileInARoomUnderANameThatSaysWhatItIs) { EXPECT_EQ(joined(misplaced_files(repository())), ""); }
+TEST(ThisRepository, HasEveryFileInARoomUnderANameThatSaysWhatItIs) {
+  EXPECT_EQ(joined(misplaced_files(repository())), "");
+}
 TEST(ThisRepository, HasNoSourceFileOver600Lines) {
   std::cout << "Over 400 lines, soon to be split:\n" << joined(oversized_files(repository(), 400));
   EXPECT_EQ(joined(oversized_files(repository(), 600)), "");
@@ -139,19 +144,23 @@ TEST(LayoutRules, FindOversizedSourcesButNotOversizedTables) {
 }
 
 TEST(LayoutRules, FindDeadAndPostponedCode) {
-  for (const std::string line : {"#if" " 0", "TEST(A, DISABLED" "_B) {", "// TO" "DO: later", "x();  // FIX" "ME", "GTEST_SKIP" "();"})
+  // A letter of each is spelled in octal, so that this file does not report itself.
+  for (const std::string line :
+       {"#if \060", "TEST(A, DISABLED\137B) {", "// TOD\117: later", "x();  // FIXM\105", "GTEST_SKIP\050);"})
     EXPECT_EQ(dead_or_postponed_code(with("tests/fit/fit_test.cc", "\n" + line + "\n")).size(), 1u) << line;
   for (const std::string line : {"GTEST_SKIP() << \"no shared data\";", "#if 01", "// the TODOS of others"})
     EXPECT_EQ(joined(dead_or_postponed_code(with("tests/fit/fit_test.cc", line))), "") << line;
 }
 
 TEST(LayoutRules, FindPathsOfOneMachine) {
-  for (const std::string line : {"read(\"/ro" "ot/a.binary\")", "see /wo" "rk/main", "/ho" "me/me/x"})
+  for (const std::string line : {"read(\"/r\157ot/a.binary\")", "see /w\157rk/main", "/h\157me/me/x"})
     EXPECT_EQ(machine_paths(with("docs/fit.md", line)).size(), 1u) << line;
   EXPECT_EQ(joined(machine_paths(with("docs/fit.md", "out/work/a, ../shared/data"))), "");
 }
 
-TEST(LayoutRules, FindAHeaderWithoutPragmaOnce) { EXPECT_EQ(unguarded_headers(with("fit/a.h", "int a;\n")).size(), 1u); }
+TEST(LayoutRules, FindAHeaderWithoutPragmaOnce) {
+  EXPECT_EQ(unguarded_headers(with("fit/a.h", "int a;\n")).size(), 1u);
+}
 
 }  // namespace
 }  // namespace likeness::house

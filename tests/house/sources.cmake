@@ -1,0 +1,30 @@
+# cmake -D MODE=check|format|tidy -D TOOL=program -D ROOT=repository [-D BUILD=tree] [-D BASE=commit] -P sources.cmake
+#
+# check and format look at every C++ file of the house; tidy at the .cc files that differ from BASE.
+file(GLOB_RECURSE sources RELATIVE ${ROOT} ${ROOT}/main.cc ${ROOT}/brdf/*.h ${ROOT}/brdf/*.cc)
+foreach(room render fit olat realis datasets_synthetic tests)
+  file(GLOB_RECURSE more RELATIVE ${ROOT} ${ROOT}/${room}/*.h ${ROOT}/${room}/*.cc)
+  list(APPEND sources ${more})
+endforeach()
+
+if(NOT TOOL)
+  message("${MODE} left out: its program of LLVM 19 was not found (clang-format-19, clang-tidy-19); other versions differ")
+elseif(MODE STREQUAL "check")
+  execute_process(COMMAND ${TOOL} --dry-run -Werror --ferror-limit=3 ${sources} WORKING_DIRECTORY ${ROOT} RESULT_VARIABLE code)
+  if(code)
+    message(FATAL_ERROR "Some files are not formatted as .clang-format says; build the target 'format'")
+  endif()
+elseif(MODE STREQUAL "format")
+  execute_process(COMMAND ${TOOL} -i ${sources} WORKING_DIRECTORY ${ROOT} COMMAND_ERROR_IS_FATAL ANY)
+elseif(MODE STREQUAL "tidy")
+  execute_process(COMMAND git diff --name-only --diff-filter=d ${BASE} -- *.cc WORKING_DIRECTORY ${ROOT}
+                  OUTPUT_VARIABLE changed OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
+  string(REPLACE "\n" ";" changed "${changed}")
+  if(NOT changed)
+    message("No .cc file differs from ${BASE}")
+    return()
+  endif()
+  execute_process(COMMAND ${TOOL} -p ${BUILD} --quiet ${changed} WORKING_DIRECTORY ${ROOT} COMMAND_ERROR_IS_FATAL ANY)
+else()
+  message(FATAL_ERROR "MODE is '${MODE}'; there are check, format and tidy")
+endif()
