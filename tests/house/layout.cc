@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <regex>
 #include <set>
 #include <sstream>
@@ -210,6 +211,26 @@ std::vector<std::string> unguarded_headers(const Tree& tree) {
     if (is_one_of(extension_of(path), {"h", "hpp"}) &&
         std::find(lines.begin(), lines.end(), "#pragma once") == lines.end())
       faults.push_back(path + ": a header without #pragma once");
+  }
+  return faults;
+}
+
+std::vector<std::string> broken_links(const Tree& tree) {
+  std::vector<std::string> faults;
+  const std::regex link(R"(\]\(([^)#:\s]+)(#[^)]*)?\))");  // [text](path), not [text](https://...)
+  for (const auto& [path, content] : tree) {
+    if (extension_of(path) != "md") continue;
+    const auto lines = lines_of(content);
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      for (std::sregex_iterator at(lines[i].begin(), lines[i].end(), link), end; at != end; ++at) {
+        const std::string target =
+            (std::filesystem::path(folder_of(path)) / (*at)[1].str()).lexically_normal().generic_string();
+        const auto found = tree.lower_bound(target);  // the file, or the first file of the folder
+        if (found == tree.end() ||
+            !(found->first == target || found->first.starts_with(target + (target.ends_with('/') ? "" : "/"))))
+          faults.push_back(place(path, i) + "links to " + target + ", which is not there");
+      }
+    }
   }
   return faults;
 }

@@ -7,7 +7,9 @@
 // The rules of the house, checked on a tree of files held in memory.
 namespace likeness::house {
 
-using Tree = std::map<std::string, std::string>;  // path from the root, with '/', to content
+using Tree =
+    std::map<std::string,
+             std::string>;  // path from the root, with '/', to content; pictures and other binary files have none
 
 struct Room {
   std::string folder;              // "fit/measured"
@@ -24,5 +26,6 @@ std::vector<std::string> oversized_files(const Tree& tree, int most_lines);
 std::vector<std::string> dead_or_postponed_code(const Tree& tree);
 std::vector<std::string> machine_paths(const Tree& tree);
 std::vector<std::string> unguarded_headers(const Tree& tree);
+std::vector<std::string> broken_links(const Tree& tree);  // of Markdown pages to files of the tree
 
 }  // namespace likeness::house

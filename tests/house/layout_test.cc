@@ -23,7 +23,7 @@ Tree this_repository() {
   const auto add = [&](const std::string& path) {
     std::ifstream in(root / path, std::ios::binary);
     std::string content{std::istreambuf_iterator<char>(in), {}};
-    if (in && content.find('\0') == std::string::npos) tree[path] = std::move(content);
+    if (in) tree[path] = content.find('\0') == std::string::npos ? std::move(content) : std::string();
   };
   const std::string list =
       "git -C '" + root.string() + "' ls-files -z --cached --others --exclude-standard 2>/dev/null";
@@ -88,6 +88,8 @@ TEST(ThisRepository, HasNoSourceFileOver600Lines) {
 TEST(ThisRepository, HasNoDeadOrPostponedCode) { EXPECT_EQ(joined(dead_or_postponed_code(repository())), ""); }
 TEST(ThisRepository, NamesNoPathOfOneMachine) { EXPECT_EQ(joined(machine_paths(repository())), ""); }
 TEST(ThisRepository, GuardsItsHeaders) { EXPECT_EQ(joined(unguarded_headers(repository())), ""); }
+
+TEST(ThisRepository, LinksOnlyToPagesThatAreThere) { EXPECT_EQ(joined(broken_links(repository())), ""); }
 
 // Each rule finds the fault that it is for, and nothing in a house without faults.
 
@@ -160,6 +162,13 @@ TEST(LayoutRules, FindPathsOfOneMachine) {
 
 TEST(LayoutRules, FindAHeaderWithoutPragmaOnce) {
   EXPECT_EQ(unguarded_headers(with("fit/a.h", "int a;\n")).size(), 1u);
+}
+
+TEST(LayoutRules, FindABrokenLinkOfAPage) {
+  const std::string good = "[a](../brdf/ggx.h), [b](../fit), [c](../fit/), [d](https://example.org/x), [e](#here)";
+  EXPECT_EQ(joined(broken_links(with("docs/fit.md", good))), "");
+  EXPECT_EQ(broken_links(with("docs/fit.md", "[a](ggx.h)")).size(), 1u);
+  EXPECT_EQ(broken_links(with("README.md", "![picture](docs/none.png)")).size(), 1u);
 }
 
 }  // namespace
