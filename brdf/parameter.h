@@ -41,12 +41,15 @@ struct Parameter {
   std::string_view text;     // one line for help and docs
 };
 
+void no_such_parameter();  // not constexpr and nowhere defined: what calls it while compiling does not compile
+
 // The default of a parameter by name; a name that is not in the table does not compile.
 template <std::size_t N>
 consteval double initial(const std::array<Parameter, N>& table, std::string_view name) {
   for (const Parameter& row : table)
     if (row.name == name) return row.initial;
-  throw "no such parameter";
+  no_such_parameter();
+  return 0;
 }
 
 // A model is a struct with kName, kParameters and members(), a tuple of pointers to the fields in the
