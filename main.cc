@@ -108,9 +108,9 @@ int main(int argc, char** argv) try {
   }
   return exit_code;
 } catch (const likeness::files::UsageError& error) {
-  return fail(kUsage, std::string("likeness: ") + error.what());
+  return fail(kUsage, error.what());
 } catch (const likeness::files::InputError& error) {
-  return fail(kBadInput, std::string("likeness: ") + error.what());
+  return fail(kBadInput, error.what());
 } catch (const std::exception& error) {
   return fail(kOurFault, std::string("likeness: failed: ") + error.what() +
                              " (if this is neither a full disk nor a missing permission, it is our fault:"
