@@ -110,7 +110,7 @@ struct Callisto {
   struct Terms {
     X rise;     // mask of the diffuse Fresnel rise [0, 1]; falloffs n_f, m_f
     X retro;    // mask of retroreflection [0, 1]; falloffs n_r, m_r
-    X drop;     // (1 - smoothstep) alpha_s of the terminator [0, 1]; length p
+    X shade;    // c2 at o = 1, which is 1 - (1 - smoothstep) alpha_s, [0, 1]; length p
     X lobe;     // the two GGX lobes without Fresnel [1/sr]; roughness, scale, opacity
     X fresnel;  // weight of the specular's rise to white [0, 1]; falloff n_s
   };
@@ -125,12 +125,14 @@ struct Callisto {
     t.retro = power5(g.versine_h, remap(retroreflection_falloff)) *
               power5(g.cos_d, remap(retroreflection_tangent_falloff));
 
-    // smoothstep(0, end, cos_i), written so that end = 0 is a step and not 0 / 0.
-    const T mask = (T(1) - g.versine_d * g.versine_d * g.versine_d) * (T(1) - g.versine_h * g.versine_h * g.versine_h);
+    // 1 - alpha_s (1 - smoothstep(0, end, cos_i)), where alpha_s = (1 - a) (1 - b): written as a sum of positive terms,
+    // which keeps its digits where it vanishes, and so that end = 0 is a step and not 0 / 0.
+    const T a = g.versine_d * g.versine_d * g.versine_d, b = g.versine_h * g.versine_h * g.versine_h;
+    const T mask = (T(1) - a) * (T(1) - b);
     const S end = smooth_terminator_length * mask;
     const auto inside = greater(end, cos_i);
     const S u = pick(inside, S(cos_i / pick(inside, end, S(1))), S(1));
-    t.drop = (S(1) - u * u * (S(3) - (u + u))) * mask;
+    t.shade = pick(inside, S(T(a + b * (T(1) - a)) + mask * (u * u * (S(3) - (u + u)))), S(1));
 
     const S alpha = alpha_of_roughness(roughness);
     const S alpha_2 = alpha_of_roughness(smaller(S(roughness * dual_specular_roughness_scale), S(1)));
@@ -150,7 +152,7 @@ struct Callisto {
     const X f0 = mix(X(constant<X>(0.08) * specular), rho, metallic);
     const X diffuse = rho * (X(1) - metallic) * constant<X>(std::numbers::inv_pi);
     const X c1 = (X(1) + (rho_f - X(1)) * t.rise) * (X(1) + (rho_r - X(1)) * t.retro);
-    const X c2 = X(1) - t.drop * o;
+    const X c2 = mix(X(1), t.shade, o);
     return (c1 * diffuse + mix(f0, X(1), t.fresnel) * t.lobe) * c2;
   }
 
