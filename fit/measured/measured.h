@@ -22,15 +22,19 @@ inline constexpr std::array<std::string_view, 4> kFormatNames{"MERL .binary", "N
 struct Sample {
   Direction to_light, to_view;
   Rgb f;          // [1/sr], linear RGB, cosine not included
-  double weight;  // [sr^2]: sin theta_i sin theta_o d(theta_i) d(theta_o) d(phi) x 2 pi of the sample's cell, > 0
+  double weight;  // [sr^2], > 0: d(omega_i) d(omega_o) of the sample's cell, with all that stands for by isotropy
+                  // and mirror symmetry; a full set of samples adds up to (2 pi)^2
 };
 
 // How much of a file is data.
 struct Coverage {
   std::size_t stored = 0;    // samples in the file
-  std::size_t valid = 0;     // finite, and not marked invalid or negative
-  std::size_t negative = 0;  // dropped: negative in a channel (MERL's mark of 'not measured', or noise)
+  std::size_t valid = 0;     // finite, and not marked invalid, negative or padding
+  std::size_t negative = 0;  // dropped: MERL: negative in any channel, the mark of 'not measured'; others: in all
   std::size_t not_finite = 0;  // dropped: NaN or Inf in a channel
+  std::size_t padding = 0;   // dropped: copies of the last measured angle in place of data (.mbsdf)
+  std::size_t clipped = 0;   // valid, but a channel was negative and reads as 0 (noise, colours out of gamut)
+  std::size_t repeats = 0;   // averaged away: further samples of the same directions (CSV)
 };
 
 // An isotropic measured BRDF, whatever file it came from. Immutable once read; reading from several
@@ -53,5 +57,12 @@ class Material {
 // Reads a measured material; the format is told from the content, the extension only breaks ties.
 // Throws files::InputError.
 std::unique_ptr<Material> read(const std::filesystem::path& file);
+
+// The same from the content of a file, for a caller that also needs the bytes (to hash them). `name` is for
+// messages, and its extension breaks ties.
+std::unique_ptr<Material> parse(std::string bytes, const std::string& name);
+
+// No measured material is larger: read() refuses what is [bytes].
+inline constexpr std::size_t kLargestFile = 128'000'000;
 
 }  // namespace likeness::measured

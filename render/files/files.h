@@ -30,7 +30,9 @@ void write_whole(const std::filesystem::path& file, std::string_view bytes);
 // The name among `names` that is nearest to `wanted` (edit distance), for 'did you mean'; empty if none is near.
 std::string nearest_name(std::string_view wanted, const std::string_view* names, std::size_t count);
 
-// The SHA-256 of some bytes, in hexadecimal: identifies an input in a result file.
+// The SHA-256 of some bytes, in hexadecimal, as sha256sum prints it: identifies an input in a result file.
+// sha256_portable gives the same without the processor's SHA instructions.
 std::string sha256(std::string_view bytes);
+std::string sha256_portable(std::string_view bytes);
 
 }  // namespace likeness::files

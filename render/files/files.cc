@@ -1,0 +1,151 @@
+#include "render/files/files.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdint>
+#include <cstring>
+#include <memory>
+#include <system_error>
+#include <vector>
+
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace likeness::files {
+namespace {
+
+struct Descriptor {
+  int number;
+  explicit Descriptor(int number_) : number(number_) {}
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  ~Descriptor() {
+    if (number >= 0) ::close(number);
+  }
+};
+
+// Removes a file on destruction unless `kept`.
+struct Temporary {
+  std::string name;
+  bool kept = false;
+  ~Temporary() {
+    if (!kept) ::unlink(name.c_str());
+  }
+};
+
+std::string cause() { return std::strerror(errno); }
+
+std::string megabytes(std::size_t bytes) {
+  return bytes < 1000000 ? std::to_string(bytes) + " bytes" : std::to_string(bytes / 1000000) + " MB";
+}
+
+// Asks for the string's unused memory in pages of 2 MB, which saves most of the time that a table of 35 MB takes.
+void in_large_pages(std::string& reserved) {
+  constexpr std::uintptr_t kPage = 4096;
+  const auto first = (reinterpret_cast<std::uintptr_t>(reserved.data()) + kPage - 1) / kPage * kPage;
+  const auto end = reinterpret_cast<std::uintptr_t>(reserved.data()) + reserved.capacity();
+  if (end > first + (std::uintptr_t{4} << 20)) ::madvise(reinterpret_cast<void*>(first), end - first, MADV_HUGEPAGE);
+}
+
+[[noreturn]] void cannot_write(const std::filesystem::path& file, const std::string& why) {
+  throw std::runtime_error(file.string() + ": cannot be written (" + why + ")");
+}
+
+}  // namespace
+
+std::string read_whole(const std::filesystem::path& file, std::size_t limit) {
+  const std::string name = file.string();
+  const Descriptor in(::open(name.c_str(), O_RDONLY | O_CLOEXEC));
+  if (in.number < 0) throw InputError(name + ": cannot be read (" + cause() + "); expected a readable file");
+  struct stat facts {};
+  if (::fstat(in.number, &facts) != 0) throw InputError(name + ": cannot be read (" + cause() + ")");
+  if (S_ISDIR(facts.st_mode)) throw InputError(name + ": is a folder; expected a file");
+  const auto too_large = [&](const std::string& found) {
+    throw InputError(name + ": " + found + "; expected at most " + megabytes(limit));
+  };
+  std::string bytes;
+  if (S_ISREG(facts.st_mode)) {
+    const auto size = static_cast<std::size_t>(facts.st_size);
+    if (size > limit) too_large(megabytes(size));
+    bytes.reserve(size);
+    in_large_pages(bytes);
+    bytes.resize(size);
+  }
+  // A pipe has no size, and a file may grow or shrink while it is read.
+  std::size_t filled = 0;
+  for (;;) {
+    if (filled == bytes.size()) {
+      char beyond[4096];
+      const ssize_t count = ::read(in.number, beyond, sizeof beyond);
+      if (count < 0 && errno == EINTR) continue;
+      if (count < 0) throw InputError(name + ": cannot be read (" + cause() + ")");
+      if (count == 0) break;
+      if (filled + static_cast<std::size_t>(count) > limit) too_large("more than " + megabytes(limit));
+      bytes.append(beyond, static_cast<std::size_t>(count));
+      filled = bytes.size();
+      continue;
+    }
+    const ssize_t count = ::read(in.number, bytes.data() + filled, bytes.size() - filled);
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) throw InputError(name + ": cannot be read (" + cause() + ")");
+    if (count == 0) break;
+    filled += static_cast<std::size_t>(count);
+  }
+  bytes.resize(filled);
+  return bytes;
+}
+
+void write_whole(const std::filesystem::path& file, std::string_view bytes) {
+  std::error_code failed;
+  const std::filesystem::path folder = file.parent_path();
+  if (!folder.empty()) std::filesystem::create_directories(folder, failed);
+  if (failed) cannot_write(file, "its folder: " + failed.message());
+  if (std::filesystem::is_directory(file, failed)) cannot_write(file, "it is a folder");
+
+  std::string pattern = (folder / ("." + file.filename().string() + ".XXXXXX")).string();
+  const Descriptor out(::mkostemp(pattern.data(), O_CLOEXEC));
+  if (out.number < 0) cannot_write(file, cause());
+  Temporary temporary{pattern};
+  // mkostemp gives 0600; the file gets what an ordinary one gets.
+  const mode_t mask = ::umask(0);
+  ::umask(mask);
+  ::fchmod(out.number, 0666 & ~mask);
+  while (!bytes.empty()) {
+    const ssize_t count = ::write(out.number, bytes.data(), bytes.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) cannot_write(file, cause());
+    bytes.remove_prefix(static_cast<std::size_t>(count));
+  }
+  if (::rename(pattern.c_str(), file.c_str()) != 0) cannot_write(file, cause());
+  temporary.kept = true;
+}
+
+std::string nearest_name(std::string_view wanted, const std::string_view* names, std::size_t count) {
+  // Levenshtein 1966, one row at a time. 'Near' is at most a third of the letters, at least one.
+  const auto distance = [](std::string_view a, std::string_view b) {
+    std::vector<std::size_t> row(b.size() + 1);
+    for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+    for (std::size_t i = 1; i <= a.size(); ++i) {
+      std::size_t diagonal = row[0];
+      row[0] = i;
+      for (std::size_t j = 1; j <= b.size(); ++j) {
+        const std::size_t kept = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+        diagonal = row[j];
+        row[j] = std::min({kept, row[j] + 1, row[j - 1] + 1});
+      }
+    }
+    return row[b.size()];
+  };
+  if (wanted.size() > 100) return {};
+  std::size_t best = std::max<std::size_t>(1, wanted.size() / 3) + 1;
+  std::string_view nearest;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t d = distance(wanted, names[i]);
+    if (d < best) best = d, nearest = names[i];
+  }
+  return std::string(nearest);
+}
+
+}  // namespace likeness::files
