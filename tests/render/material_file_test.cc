@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <bit>
 #include <filesystem>
@@ -128,7 +129,7 @@ TEST(MaterialFile, UnknownNamesGetTheNearest) {
   EXPECT_THAT(refusal(with_parameters("\"rougness\": 0.1")), StartsWith("gold.material.json:3: /parameters/"));
   EXPECT_THAT(refusal(R"({"format": "likeness material", "version": 1, "model": "calisto"})"),
               HasSubstr("/model: no model \"calisto\"; did you mean \"callisto\"?"));
-  EXPECT_THAT(refusal(R"({"modle": "callisto"})"), HasSubstr("/modle is not a key of a material file; did you mean \"model\"?"));
+  EXPECT_THAT(refusal(R"({"modl": "callisto"})"), HasSubstr("/modl is not a key of a material file; did you mean \"model\"?"));
   EXPECT_THAT(refusal(with_parameters("\"zzzzzzzzzzzz\": 0.1")), HasSubstr("it has: base_color, metallic"));
 }
 
@@ -199,7 +200,7 @@ TEST(MaterialFile, RefusesToWriteWhatItCouldNotRead) {
 }
 
 TEST(MaterialFile, GoesThroughTheDisk) {
-  const auto file = std::filesystem::temp_directory_path() / "likeness_material_file_test" / "m.material.json";
+  const auto file = std::filesystem::temp_directory_path() / ("likeness_material_file_test_" + std::to_string(getpid())) / "m.material.json";
   write_material(file, {"m", awkward_model("callisto")});
   EXPECT_EQ(text_of(read_material(file)), text_of({"m", awkward_model("callisto")}));
   std::ofstream(file, std::ios::binary) << std::string(kLargestFile + 1, ' ');
