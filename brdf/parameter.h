@@ -16,7 +16,7 @@ struct Interval {
 // What a parameter does, which decides how a fit treats it.
 enum class Role {
   kScale,      // a reflectance or an intensity that multiplies a term
-  kTint,       // a colour in [0, 1] that multiplies the scale named by `tints`
+  kTint,       // a color in [0, 1] that multiplies the scale named by `tints`
   kShape,      // a roughness, a falloff, a length: enters non-linearly
   kMix,        // a weight between two terms
 };
@@ -42,6 +42,9 @@ struct Parameter {
 };
 
 void no_such_parameter();  // not constexpr and nowhere defined: what calls it while compiling does not compile
+
+// Not constexpr: reaching it stops the compilation, also where exceptions are switched off.
+inline void no_such_parameter() {}
 
 // The default of a parameter by name; a name that is not in the table does not compile.
 template <std::size_t N>
