@@ -10,8 +10,8 @@
 // PNG is OpenImageIO's work. A process that links it spends 0.28 CPU s before main, so it lives in the module
 // likeness_image_io.so, which the first PNG loads. The module is searched in, and nowhere else:
 //   1. the folder in the environment variable LIKENESS_MODULES, if that is set;
-//   2. lib/likeness beside the program (the build folder);
-//   3. ../lib/likeness from the program (an installation: bin/likeness, lib/likeness/likeness_image_io.so).
+//   2. lib/likeness in the program's folder and the three above it: PREFIX/lib/likeness of an installed
+//      PREFIX/bin/likeness, or that of the build folder.
 namespace likeness::image {
 
 // A PNG in memory: 8 bit, RGB, tagged sRGB.

@@ -18,11 +18,9 @@ std::vector<std::filesystem::path> module_folders() {
   std::vector<std::filesystem::path> folders;
   if (const char* named = std::getenv("LIKENESS_MODULES"); named && *named) folders.emplace_back(named);
   std::error_code error;
-  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
-  if (!error) {
-    folders.push_back(program / "lib" / "likeness");
-    folders.push_back(program.parent_path() / "lib" / "likeness");
-  }
+  std::filesystem::path folder = std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
+  for (int level = 0; level < 4 && folder.has_relative_path(); ++level, folder = folder.parent_path())
+    folders.push_back(folder / "lib" / "likeness");
   return folders;
 }
 
