@@ -43,9 +43,6 @@ struct Parameter {
 
 void no_such_parameter();  // not constexpr and nowhere defined: what calls it while compiling does not compile
 
-// Not constexpr: reaching it stops the compilation, also where exceptions are switched off.
-inline void no_such_parameter() {}
-
 // The default of a parameter by name; a name that is not in the table does not compile.
 template <std::size_t N>
 consteval double initial(const std::array<Parameter, N>& table, std::string_view name) {
