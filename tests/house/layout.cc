@@ -215,6 +215,21 @@ std::vector<std::string> unguarded_headers(const Tree& tree) {
   return faults;
 }
 
+std::vector<std::string> foreign_includes_of_brdf(const Tree& tree) {
+  std::vector<std::string> faults;
+  const std::regex include(R"(^\s*#\s*include\s+<([^>]+)>)"), allowed("[a-z_]+|glm/.*");
+  for (const auto& [path, content] : tree) {
+    if (!is_cpp(path) || !path.starts_with("brdf/") || path == "brdf/jet.h" || path == "brdf/batch.h") continue;
+    const auto lines = lines_of(content);
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      std::smatch match;
+      if (std::regex_search(lines[i], match, include) && !std::regex_match(match[1].str(), allowed))
+        faults.push_back(place(path, i) + "<" + match[1].str() + "> is neither the standard library nor GLM");
+    }
+  }
+  return faults;
+}
+
 std::vector<std::string> broken_links(const Tree& tree) {
   std::vector<std::string> faults;
   const std::regex link(R"(\]\(([^)#:\s]+)(#[^)]*)?\))");  // [text](path), not [text](https://...)

@@ -26,6 +26,8 @@ std::vector<std::string> oversized_files(const Tree& tree, int most_lines);
 std::vector<std::string> dead_or_postponed_code(const Tree& tree);
 std::vector<std::string> machine_paths(const Tree& tree);
 std::vector<std::string> unguarded_headers(const Tree& tree);
+std::vector<std::string> foreign_includes_of_brdf(
+    const Tree& tree);                                    // it needs GLM alone, apart from jet.h and batch.h
 std::vector<std::string> broken_links(const Tree& tree);  // of Markdown pages to files of the tree
 
 }  // namespace likeness::house

@@ -89,6 +89,7 @@ TEST(ThisRepository, HasNoDeadOrPostponedCode) { EXPECT_EQ(joined(dead_or_postpo
 TEST(ThisRepository, NamesNoPathOfOneMachine) { EXPECT_EQ(joined(machine_paths(repository())), ""); }
 TEST(ThisRepository, GuardsItsHeaders) { EXPECT_EQ(joined(unguarded_headers(repository())), ""); }
 
+TEST(ThisRepository, NeedsOnlyGlmForItsEvaluators) { EXPECT_EQ(joined(foreign_includes_of_brdf(repository())), ""); }
 TEST(ThisRepository, LinksOnlyToPagesThatAreThere) { EXPECT_EQ(joined(broken_links(repository())), ""); }
 
 // Each rule finds the fault that it is for, and nothing in a house without faults.
@@ -162,6 +163,12 @@ TEST(LayoutRules, FindPathsOfOneMachine) {
 
 TEST(LayoutRules, FindAHeaderWithoutPragmaOnce) {
   EXPECT_EQ(unguarded_headers(with("fit/a.h", "int a;\n")).size(), 1u);
+}
+
+TEST(LayoutRules, FindAPackageThatBrdfMustNotNeed) {
+  EXPECT_EQ(foreign_includes_of_brdf(with("brdf/ggx.h", "#include <Eigen/Core>\n")).size(), 1u);
+  EXPECT_EQ(foreign_includes_of_brdf(with("brdf/ggx.h", "#include <cmath>\n#include <glm/vec3.hpp>\n")).size(), 0u);
+  EXPECT_EQ(foreign_includes_of_brdf(with("brdf/jet.h", "#include <ceres/jet.h>\n")).size(), 0u);
 }
 
 TEST(LayoutRules, FindABrokenLinkOfAPage) {
