@@ -91,9 +91,13 @@ TEST(Ggx, AlbedoNeverExceedsOneAndNearlyReachesItWhenSmooth) {
   EXPECT_NEAR(albedo(Ggx<double>{Rgb<double>(1), 1}, 1), 1 - std::numbers::ln2, 1e-5);  // midpoint rule: 1e-6
 }
 
-TEST(BurleyDiffuse, AlbedoIsNearLambertsAtNormalViewAndExceedsOneAtGrazing) {
-  EXPECT_NEAR(albedo(BurleyDiffuse<double>{Rgb<double>(1), 0.5}, 1), 0.98, 0.06);
-  EXPECT_GT(albedo(BurleyDiffuse<double>{Rgb<double>(1), 1}, 0.05), 1);
+// The numbers of docs/models/burley_diffuse.md, to their last digit.
+TEST(BurleyDiffuse, AlbedoIsAsItsPageSays) {
+  const auto at = [](double roughness, double z) { return albedo(BurleyDiffuse<double>{Rgb<double>(1), roughness}, z); };
+  EXPECT_NEAR(at(0, 1), 0.976, 6e-4);
+  EXPECT_NEAR(at(0.5, 1), 1.006, 6e-4);
+  EXPECT_NEAR(at(1, 0.2), 1.245, 6e-4);
+  EXPECT_NEAR(at(1, 0.01), 1.538, 6e-4);
 }
 
 // ---- the microfacets of a unit patch project onto exactly that patch.
