@@ -19,8 +19,7 @@ std::size_t utf8_length(std::string_view text) {
   const unsigned char a = byte(0), b = byte(1);
   if (a < 0x80) return 1;
   if (a >= 0xc2 && a <= 0xdf && tail(1)) return 2;
-  if (a >= 0xe0 && a <= 0xef && tail(1) && tail(2))
-    return (a == 0xe0 && b < 0xa0) || (a == 0xed && b >= 0xa0) ? 0 : 3;
+  if (a >= 0xe0 && a <= 0xef && tail(1) && tail(2)) return (a == 0xe0 && b < 0xa0) || (a == 0xed && b >= 0xa0) ? 0 : 3;
   if (a >= 0xf0 && a <= 0xf4 && tail(1) && tail(2) && tail(3))
     return (a == 0xf0 && b < 0x90) || (a == 0xf4 && b >= 0x90) ? 0 : 4;
   return 0;
@@ -36,18 +35,12 @@ std::string escape(std::string_view text) {
     const char c = text[i];
     if (length == 0 || (length == 1 && static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t') || c == 0x7f)
       out += "\xef\xbf\xbd";
-    else if (c == '&')
-      out += "&amp;";
-    else if (c == '<')
-      out += "&lt;";
-    else if (c == '>')
-      out += "&gt;";
-    else if (c == '"')
-      out += "&quot;";
-    else if (c == '\'')
-      out += "&#39;";
-    else
-      out += text.substr(i, length);
+    else if (c == '&') out += "&amp;";
+    else if (c == '<') out += "&lt;";
+    else if (c == '>') out += "&gt;";
+    else if (c == '"') out += "&quot;";
+    else if (c == '\'') out += "&#39;";
+    else out += text.substr(i, length);
     i += length == 0 ? 1 : length;
   }
   return out;

@@ -31,10 +31,8 @@ std::string relative_url(const std::string& path) {
   std::string out;
   for (const char c : path) {
     const auto byte = static_cast<unsigned char>(c);
-    if (kPlain.find(c) != std::string_view::npos)
-      out += c;
-    else
-      (out += '%') += {kHex[byte >> 4], kHex[byte & 15]};
+    if (kPlain.find(c) != std::string_view::npos) out += c;
+    else (out += '%') += {kHex[byte >> 4], kHex[byte & 15]};
   }
   while (out.starts_with("//")) out.erase(0, 1);  // not another host
   return out;
@@ -42,13 +40,15 @@ std::string relative_url(const std::string& path) {
 
 std::string card(const OverviewRow& row) {
   const bool is_file = row.thumbnail_png.find('.') != std::string::npos;
-  const std::string picture = is_file ? relative_url(row.thumbnail_png) : "data:image/png;base64," + escape(row.thumbnail_png);
-  return "<li data-error=\"" + number(row.metrics.slice_error_pct, 8) + "\" data-log=\"" + number(row.metrics.slice_log_rms, 8) +
-         "\" data-table=\"" + number(row.metrics.log_rms_3d, 8) + "\" data-name=\"" + escape(row.material) + "\"><a href=\"" +
-         relative_url(row.report_href) + "\"><img class=\"pixels\" width=\"90\" height=\"90\" src=\"" + picture + "\" alt=\"" +
-         escape("Measured slice of " + row.material) + "\"><b>" + escape(row.material) + "</b><span class=\"quiet\">error " +
-         fixed(row.metrics.slice_error_pct, 2) + " %<br>log RMS " + fixed(row.metrics.slice_log_rms, 4) + "<br>" +
-         escape(row.label) + "</span></a></li>\n";
+  const std::string picture =
+      is_file ? relative_url(row.thumbnail_png) : "data:image/png;base64," + escape(row.thumbnail_png);
+  return "<li data-error=\"" + number(row.metrics.slice_error_pct, 8) + "\" data-log=\"" +
+         number(row.metrics.slice_log_rms, 8) + "\" data-table=\"" + number(row.metrics.log_rms_3d, 8) +
+         "\" data-name=\"" + escape(row.material) + "\"><a href=\"" + relative_url(row.report_href) +
+         "\"><img class=\"pixels\" width=\"90\" height=\"90\" src=\"" + picture + "\" alt=\"" +
+         escape("Measured slice of " + row.material) + "\"><b>" + escape(row.material) +
+         "</b><span class=\"quiet\">error " + fixed(row.metrics.slice_error_pct, 2) + " %<br>log RMS " +
+         fixed(row.metrics.slice_log_rms, 4) + "<br>" + escape(row.label) + "</span></a></li>\n";
 }
 
 constexpr std::string_view kSortScript = R"js(<script>
@@ -87,19 +87,28 @@ std::string overview_html(const std::vector<OverviewRow>& rows, const std::vecto
                     plural(rows.size(), "material") + " fitted</h1>\n<p class=\"verdict\">";
   if (!rows.empty())
     out += "Slice error: mean " + fixed(mean(errors), 2) + " %, median " + fixed(median(errors), 2) + " %, worst " +
-           fixed(*std::max_element(errors.begin(), errors.end()), 2) + " %. Slice log RMS: mean " + fixed(mean(logs), 4) +
-           ", median " + fixed(median(logs), 4) + ". ";
-  out += failed.empty() ? "No file failed." : "<a href=\"#failed\">" + plural(failed.size(), "file") + " could not be fitted</a>.";
-  out += "</p>\n<p class=\"quiet\">Each picture is the measured slice: half-angle to the normal (θh) across, to the light (θd) "
-         "up, 0 to 90°; mirror reflection at the left edge, grazing light at the top, light sent back at the right. "
-         "Brightness is set for each picture by itself; hatched: no data. Groups follow the fitted pattern of the slice: how "
-         "its top, right edge and top right corner compare with its middle. Within a group the nearest fit comes first.</p>\n";
-  out += "<p class=\"controls\" hidden><label>Sort each group by <select id=\"order\"><option value=\"error\">slice error, "
-         "smallest first</option><option value=\"-error\">slice error, largest first</option><option value=\"log\">slice log "
-         "RMS, smallest first</option><option value=\"table\">whole-table log RMS, smallest first</option><option "
-         "value=\"name\">name</option></select></label></p>\n</header>\n<main>\n";
+           fixed(*std::max_element(errors.begin(), errors.end()), 2) + " %. Slice log RMS: mean " +
+           fixed(mean(logs), 4) + ", median " + fixed(median(logs), 4) + ". ";
+  out += failed.empty() ? "No file failed."
+                        : "<a href=\"#failed\">" + plural(failed.size(), "file") + " could not be fitted</a>.";
+  out +=
+      "</p>\n<p class=\"quiet\">Each picture is the measured slice: half-angle to the normal (θh) across, to the light "
+      "(θd) "
+      "up, 0 to 90°; mirror reflection at the left edge, grazing light at the top, light sent back at the right. "
+      "Brightness is set for each picture by itself; hatched: no data. Groups follow the fitted pattern of the slice: "
+      "how "
+      "its top, right edge and top right corner compare with its middle. Within a group the nearest fit comes "
+      "first.</p>\n";
+  out +=
+      "<p class=\"controls\" hidden><label>Sort each group by <select id=\"order\"><option value=\"error\">slice "
+      "error, "
+      "smallest first</option><option value=\"-error\">slice error, largest first</option><option value=\"log\">slice "
+      "log "
+      "RMS, smallest first</option><option value=\"table\">whole-table log RMS, smallest first</option><option "
+      "value=\"name\">name</option></select></label></p>\n</header>\n<main>\n";
   std::vector<std::pair<std::string, std::vector<const OverviewRow*>>> ordered(groups.begin(), groups.end());
-  std::stable_sort(ordered.begin(), ordered.end(), [](const auto& a, const auto& b) { return a.second.size() > b.second.size(); });
+  std::stable_sort(ordered.begin(), ordered.end(),
+                   [](const auto& a, const auto& b) { return a.second.size() > b.second.size(); });
   for (auto& [group, members] : ordered) {
     std::stable_sort(members.begin(), members.end(), [](const OverviewRow* a, const OverviewRow* b) {
       const double x = a->metrics.slice_error_pct, y = b->metrics.slice_error_pct;

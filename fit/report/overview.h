@@ -12,11 +12,11 @@ namespace likeness::fit {
 // One material of a batch. Plain values, so that a resumed batch can make it from a result file.
 struct OverviewRow {
   std::string material;
-  std::string label;           // of the fitted candidate
-  Metrics metrics;             // of the fitted candidate
+  std::string label;  // of the fitted candidate
+  Metrics metrics;    // of the fitted candidate
   Pattern pattern;
-  std::string thumbnail_png;   // base64 of the slice's PNG, or (with a '.' in it) a file relative to the page
-  std::string report_href;     // of the report, relative to the page
+  std::string thumbnail_png;  // base64 of the slice's PNG, or (with a '.' in it) a file relative to the page
+  std::string report_href;    // of the report, relative to the page
 };
 
 // A file that could not be fitted, and why.

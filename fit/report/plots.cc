@@ -16,8 +16,8 @@ constexpr double kLeft = 34, kTop = 6;  // of the slice's 90 x 90 units in its d
 
 std::string text(double x, double y, std::string_view anchor, std::string_view content, double size = 8,
                  std::string_view more = "") {
-  return "<text x=\"" + number(x, 5) + "\" y=\"" + number(y, 5) + "\" font-size=\"" + number(size) + "\" text-anchor=\"" +
-         std::string(anchor) + "\"" + std::string(more) + ">" + std::string(content) + "</text>";
+  return "<text x=\"" + number(x, 5) + "\" y=\"" + number(y, 5) + "\" font-size=\"" + number(size) +
+         "\" text-anchor=\"" + std::string(anchor) + "\"" + std::string(more) + ">" + std::string(content) + "</text>";
 }
 
 std::string line(double x1, double y1, double x2, double y2, std::string_view style) {
@@ -26,7 +26,8 @@ std::string line(double x1, double y1, double x2, double y2, std::string_view st
 }
 
 std::string slice_axes() {
-  std::string out = "<rect x=\"34\" y=\"6\" width=\"90\" height=\"90\" fill=\"none\" stroke=\"#555\" stroke-width=\".7\"/>";
+  std::string out =
+      "<rect x=\"34\" y=\"6\" width=\"90\" height=\"90\" fill=\"none\" stroke=\"#555\" stroke-width=\".7\"/>";
   for (const int degrees : {0, 30, 60, 90}) {
     const double x = kLeft + degrees, y = kTop + 90 - degrees;
     out += line(x, 96, x, 98.5, "stroke=\"#555\" stroke-width=\".7\"");
@@ -34,9 +35,11 @@ std::string slice_axes() {
     out += text(x, 106, "middle", std::to_string(degrees) + "°");
     out += text(30, y + 3, "end", std::to_string(degrees) + "°");
   }
-  out += text(79, 116, "middle", "θ<tspan font-size=\"6\" dy=\"2\">h</tspan><tspan dy=\"-2\">: half vector to normal</tspan>", 7.5);
-  out += text(8, 51, "middle", "θ<tspan font-size=\"6\" dy=\"2\">d</tspan><tspan dy=\"-2\">: half vector to light</tspan>", 7.5,
-              " transform=\"rotate(-90 8 51)\"");
+  out += text(79, 116, "middle",
+              "θ<tspan font-size=\"6\" dy=\"2\">h</tspan><tspan dy=\"-2\">: half vector to normal</tspan>", 7.5);
+  out +=
+      text(8, 51, "middle", "θ<tspan font-size=\"6\" dy=\"2\">d</tspan><tspan dy=\"-2\">: half vector to light</tspan>",
+           7.5, " transform=\"rotate(-90 8 51)\"");
   return out;
 }
 
@@ -115,15 +118,14 @@ std::string regions_figure() {
   const std::string title =
       "The regions of a slice: specular peak at the left edge, Fresnel peak at the top, retroreflection at the right "
       "edge, diffuse in the middle.";
-  return drawing(
-      "0 0 132 120", title,
-      "<rect x=\"34\" y=\"6\" width=\"90\" height=\"90\" fill=\"#f0ead8\"/>"
-      "<rect x=\"34\" y=\"6\" width=\"90\" height=\"20\" fill=\"#cfe0f3\"/>"
-      "<rect x=\"106\" y=\"26\" width=\"18\" height=\"70\" fill=\"#dcd3ec\"/>"
-      "<rect x=\"34\" y=\"26\" width=\"14\" height=\"70\" fill=\"#f6cfc4\"/>" +
-          text(79, 19, "middle", "Fresnel peak") + text(77, 64, "middle", "diffuse") +
-          text(43.5, 61, "middle", "specular peak", 8, " transform=\"rotate(-90 43.5 61)\"") +
-          text(118, 61, "middle", "retroreflection", 8, " transform=\"rotate(-90 118 61)\"") + slice_axes());
+  return drawing("0 0 132 120", title,
+                 "<rect x=\"34\" y=\"6\" width=\"90\" height=\"90\" fill=\"#f0ead8\"/>"
+                 "<rect x=\"34\" y=\"6\" width=\"90\" height=\"20\" fill=\"#cfe0f3\"/>"
+                 "<rect x=\"106\" y=\"26\" width=\"18\" height=\"70\" fill=\"#dcd3ec\"/>"
+                 "<rect x=\"34\" y=\"26\" width=\"14\" height=\"70\" fill=\"#f6cfc4\"/>" +
+                     text(79, 19, "middle", "Fresnel peak") + text(77, 64, "middle", "diffuse") +
+                     text(43.5, 61, "middle", "specular peak", 8, " transform=\"rotate(-90 43.5 61)\"") +
+                     text(118, 61, "middle", "retroreflection", 8, " transform=\"rotate(-90 118 61)\"") + slice_axes());
 }
 
 std::string difference_legend() {
@@ -133,9 +135,10 @@ std::string difference_legend() {
     out += "<stop offset=\"" + number(i / 8.0) + "\" stop-color=\"rgb(" + std::to_string(c[0]) + "," +
            std::to_string(c[1]) + "," + std::to_string(c[2]) + ")\"/>";
   }
-  out += "</linearGradient><pattern id=\"hatch\" width=\"5.66\" height=\"5.66\" patternUnits=\"userSpaceOnUse\" "
-         "patternTransform=\"rotate(45)\"><rect width=\"5.66\" height=\"5.66\" fill=\"#b8b8b8\"/>"
-         "<rect width=\"2.83\" height=\"5.66\" fill=\"#969696\"/></pattern></defs>";
+  out +=
+      "</linearGradient><pattern id=\"hatch\" width=\"5.66\" height=\"5.66\" patternUnits=\"userSpaceOnUse\" "
+      "patternTransform=\"rotate(45)\"><rect width=\"5.66\" height=\"5.66\" fill=\"#b8b8b8\"/>"
+      "<rect width=\"2.83\" height=\"5.66\" fill=\"#969696\"/></pattern></defs>";
   out += "<rect x=\"20\" y=\"18\" width=\"260\" height=\"16\" fill=\"url(#stops)\" stroke=\"#777\"/>";
   for (int i = -2; i <= 2; ++i) {
     const double x = 150 + 65 * i;
@@ -147,8 +150,10 @@ std::string difference_legend() {
   out += text(150, 66, "middle", "stops: +1 is twice the light, −1 is half", 12);
   out += "<rect x=\"20\" y=\"76\" width=\"22\" height=\"14\" fill=\"url(#hatch)\" stroke=\"#777\"/>" +
          text(48, 87, "start", "not compared: no data, or beyond cut", 12);
-  return drawing("0 0 300 94", "Scale of the signed difference, from 2 stops darker (blue) over equal (white) to 2 stops "
-                               "brighter (orange); hatched where nothing is compared.", out);
+  return drawing("0 0 300 94",
+                 "Scale of the signed difference, from 2 stops darker (blue) over equal (white) to 2 stops "
+                 "brighter (orange); hatched where nothing is compared.",
+                 out);
 }
 
 std::string convergence_figure(const std::vector<Step>& steps) {
@@ -163,10 +168,12 @@ std::string convergence_figure(const std::vector<Step>& steps) {
     const double x = LossAxes::kX0 + (step.iteration - first) / span * (LossAxes::kX1 - LossAxes::kX0);
     points += number(x, 5) + "," + number(axes.y(step.loss), 5) + " ";
     if (steps.size() <= 60)
-      dots += "<circle cx=\"" + number(x, 5) + "\" cy=\"" + number(axes.y(step.loss), 5) + "\" r=\"2\" fill=\"#0b5394\"/>";
+      dots +=
+          "<circle cx=\"" + number(x, 5) + "\" cy=\"" + number(axes.y(step.loss), 5) + "\" r=\"2\" fill=\"#0b5394\"/>";
   }
-  return drawing("0 0 400 240", "Loss against iteration of the winning start, from " + number(losses.front()) + " to " +
-                                    number(losses.back()) + " in " + std::to_string(steps.size()) + " evaluations.",
+  return drawing("0 0 400 240",
+                 "Loss against iteration of the winning start, from " + number(losses.front()) + " to " +
+                     number(losses.back()) + " in " + std::to_string(steps.size()) + " evaluations.",
                  axes.frame("iteration", first, steps.back().iteration) + "<polyline points=\"" + points +
                      "\" fill=\"none\" stroke=\"#0b5394\" stroke-width=\"1.5\"/>" + dots);
 }
@@ -185,8 +192,9 @@ std::string starts_figure(std::vector<double> losses) {
     dots += "<circle cx=\"" + number(x, 5) + "\" cy=\"" + number(axes.y(losses[i]), 5) + "\" r=\"" +
             (i == 0 ? "5" : "3.2") + "\" fill=\"" + (i == 0 ? "#b35806" : "#0b5394") + "\"/>";
   }
-  return drawing("0 0 400 240", "Final loss of each of the " + std::to_string(losses.size()) + " starts, sorted; the best is " +
-                                    number(losses.front()) + ".",
+  return drawing("0 0 400 240",
+                 "Final loss of each of the " + std::to_string(losses.size()) + " starts, sorted; the best is " +
+                     number(losses.front()) + ".",
                  axes.frame("starts, from the best to the worst", 1, static_cast<double>(losses.size())) + dots);
 }
 

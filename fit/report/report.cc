@@ -27,10 +27,11 @@ std::string as_shell_word(const std::string& text) {
 
 std::string verdict(const Result& result) {
   const std::vector<const Candidate*> all = candidates_of(result);
-  std::string out = escape(result.best.label) + ", comes within <strong>" + percent(result.best.metrics.slice_error_pct) +
-                    "</strong> of the measured slice";
+  std::string out = escape(result.best.label) + ", comes within <strong>" +
+                    percent(result.best.metrics.slice_error_pct) + "</strong> of the measured slice";
   for (std::size_t i = 1; i < all.size(); ++i)
-    out += (i == 1 ? ". For comparison: " : "; ") + escape(all[i]->label) + " " + percent(all[i]->metrics.slice_error_pct);
+    out +=
+        (i == 1 ? ". For comparison: " : "; ") + escape(all[i]->label) + " " + percent(all[i]->metrics.slice_error_pct);
   out += ".";
   const Candidate* nearest = all.front();
   for (const Candidate* candidate : all)
@@ -43,8 +44,8 @@ std::string verdict(const Result& result) {
 
 std::string valid_share(const measured::Coverage& c) {
   if (c.stored == 0) return "no samples";
-  return fixed(100.0 * static_cast<double>(c.valid) / static_cast<double>(c.stored), 1) + " % of " + std::to_string(c.stored) +
-         " stored samples are valid";
+  return fixed(100.0 * static_cast<double>(c.valid) / static_cast<double>(c.stored), 1) + " % of " +
+         std::to_string(c.stored) + " stored samples are valid";
 }
 
 std::string cut_words(const Result& result) { return plain(result.options.cut_deg) + "°"; }
@@ -57,9 +58,11 @@ struct Show {
 
 std::string spheres_cell(const SpherePicture& spheres, const Show& show, const std::string& label) {
   std::string out = "<figure class=\"spheres\"><img width=\"480\" height=\"160\" src=\"" +
-                    png_data_url(image::png_bytes(spheres_picture(spheres, show.spheres_ev))) +
-                    "\" alt=\"" + escape("Three spheres of " + label + ", lit from the camera, from the right at 90 degrees, "
-                                         "and from behind at 130 degrees.") + "\"><figcaption class=\"angles\">";
+                    png_data_url(image::png_bytes(spheres_picture(spheres, show.spheres_ev))) + "\" alt=\"" +
+                    escape("Three spheres of " + label +
+                           ", lit from the camera, from the right at 90 degrees, "
+                           "and from behind at 130 degrees.") +
+                    "\"><figcaption class=\"angles\">";
   for (const double angle : kSphereLightsDeg) out += "<span>light at " + plain(angle) + "°</span>";
   return out + "</figcaption></figure>";
 }
@@ -72,8 +75,8 @@ std::string slice_cell(const SlicePicture& slice, const Show& show, const std::s
 std::string reference_row(const SpherePicture& spheres, const Show& show) {
   return "<section class=\"row\"><header><h3>Measured</h3><span class=\"quiet\">the reference</span></header>"
          "<div class=\"pictures\">" +
-         slice_cell(show.reference, show, "measured") +
-         "<figure>" + regions_figure() + "<figcaption>what lies where in every slice</figcaption></figure>" +
+         slice_cell(show.reference, show, "measured") + "<figure>" + regions_figure() +
+         "<figcaption>what lies where in every slice</figcaption></figure>" +
          spheres_cell(spheres, show, "the measured material") + "</div></section>\n";
 }
 
@@ -83,8 +86,8 @@ std::string candidate_row(const Candidate& candidate, bool is_fit, const Show& s
   return std::string("<section class=\"row") + (is_fit ? " fit" : "") + "\"><header><h3>" + escape(candidate.label) +
          (is_fit ? " (this fit)" : "") + "</h3><span class=\"quiet\">slice error " +
          percent(candidate.metrics.slice_error_pct) + ", slice log RMS " + fixed(candidate.metrics.slice_log_rms, 4) +
-         "; half of the slice within " + fixed(median_difference(stops), 2) + " stops</span></header><div class=\"pictures\">" +
-         slice_cell(slice, show, candidate.label) + "<figure>" +
+         "; half of the slice within " + fixed(median_difference(stops), 2) +
+         " stops</span></header><div class=\"pictures\">" + slice_cell(slice, show, candidate.label) + "<figure>" +
          slice_figure(difference_picture(stops), show.cut_deg,
                       "Difference in stops, " + candidate.label + " against measured") +
          "<figcaption>difference from measured</figcaption></figure>" +
@@ -96,25 +99,33 @@ std::string pictures_section(const Result& result, const measured::Material& mat
   const SpherePicture spheres = spheres_of(material);
   show.slice_ev = slice_exposure(show.reference, show.cut_deg);
   show.spheres_ev = spheres_exposure(spheres);
-  const auto ev = [](double x) { return (x > 0 ? "+" : "") + plain(x) + " EV"; };
+  const auto ev = [](double x) { return (x > 0 ? "+" : x < 0 ? "−" : "") + plain(std::abs(x)) + " EV"; };
   std::string out =
       "<section id=\"pictures\"><h2>Measured and modelled, side by side</h2>\n<div class=\"intro\"><div>"
       "<p>The first row is the measurement, every other row a model. First its <b>slice</b>: a map of how brightly the "
       "surface reflects, in which every pixel is one pair of light and camera directions. Then where the model is "
-      "<b>darker (blue)</b> or <b>brighter (orange)</b> than the measurement; white means equal. Then <b>spheres</b> under "
-      "one distant light at 0° (behind the camera), 90° (from the right) and 130° (almost from behind the sphere).</p><p>The dashed line is the cut of " + cut_words(result) +
+      "<b>darker (blue)</b> or <b>brighter (orange)</b> than the measurement; white means equal. Then <b>spheres</b> "
+      "under "
+      "one distant light at 0° (behind the camera), 90° (from the right) and 130° (almost from behind the "
+      "sphere).</p><p>The dashed line is the cut of " +
+      cut_words(result) +
       ": beyond it light or camera graze the surface, measurements are poor, and nothing is compared. All slices are "
-      "shown at " + ev(show.slice_ev) + ", all spheres at " + ev(show.spheres_ev) +
-      " (a white matte surface facing the light has value 1 at 0 EV), in sRGB. Hatched: no data; where a measurement ends before 90°, its sphere takes the value at 88 to 78° "
+      "shown at " +
+      ev(show.slice_ev) + ", all spheres at " + ev(show.spheres_ev) +
+      " (a white matte surface facing the light has value 1 at 0 EV), in sRGB. Hatched: no data; where a measurement "
+      "ends before 90°, its sphere takes the value at 88 to 78° "
       "from the normal there.</p></div><figure>" +
       difference_legend() + "<figcaption>scale of every difference picture</figcaption></figure></div>\n" +
       reference_row(spheres, show);
-  for (const Candidate* candidate : candidates_of(result)) out += candidate_row(*candidate, candidate == &result.best, show);
+  for (const Candidate* candidate : candidates_of(result))
+    out += candidate_row(*candidate, candidate == &result.best, show);
   return out + "</section>\n";
 }
 
 std::string parameters_section(const Result& result) {
-  const auto count = [&](auto&& is) { return std::count_if(result.best.estimates.begin(), result.best.estimates.end(), is); };
+  const auto count = [&](auto&& is) {
+    return std::count_if(result.best.estimates.begin(), result.best.estimates.end(), is);
+  };
   const auto fitted = count([](const Estimate& e) { return e.fitted; });
   const auto idle = count([](const Estimate& e) { return e.fitted && !e.matters; });
   const auto bound = count([](const Estimate& e) { return e.fitted && e.matters && e.at_bound; });
@@ -140,14 +151,16 @@ std::string time_table(const Timing& timing) {
                                                   {"drawing this report", timing.report}};
   double total = 0;
   for (const auto& [name, seconds] : parts) total += seconds;
-  std::string out = "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"CPU time\"><table><thead><tr><th "
-                    "scope=\"col\">Where</th><th scope=\"col\">CPU s</th><th scope=\"col\">Share of " + fixed(total, 2) +
-                    " s</th></tr></thead><tbody>";
+  std::string out =
+      "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"CPU time\"><table><thead><tr><th "
+      "scope=\"col\">Where</th><th scope=\"col\">CPU s</th><th scope=\"col\">Share of " +
+      fixed(total, 2) + " s</th></tr></thead><tbody>";
   for (const auto& [name, seconds] : parts) {
     if (seconds <= 0) continue;
     const double share = 100 * seconds / total;
-    out += "<tr><td>" + std::string(name) + "</td><td class=\"n\">" + fixed(seconds, 3) + "</td><td class=\"wide\"><span class=\"bar\" style=\"width:" +
-           fixed(share, 1) + "%\" title=\"" + fixed(share, 0) + " %\"></span></td></tr>";
+    out += "<tr><td>" + std::string(name) + "</td><td class=\"n\">" + fixed(seconds, 3) +
+           "</td><td class=\"wide\"><span class=\"bar\" style=\"width:" + fixed(share, 1) + "%\" title=\"" +
+           fixed(share, 0) + " %\"></span></td></tr>";
   }
   return out + "</tbody></table></div>\n";
 }
@@ -158,11 +171,14 @@ std::string fitting_section(const Result& result) {
   if (const std::string plot = convergence_figure(best.convergence); !plot.empty())
     out += "<figure>" + plot + "<figcaption>The winning start" +
            (best.best_start >= 0 ? " (number " + std::to_string(best.best_start + 1) + " of " +
-                                       std::to_string(best.start_losses.size()) + ")" : std::string()) +
+                                       std::to_string(best.start_losses.size()) + ")"
+                                 : std::string()) +
            ": the loss falls until it no longer changes.</figcaption></figure>";
   if (const std::string plot = starts_figure(best.start_losses); !plot.empty())
-    out += "<figure>" + plot + "<figcaption>Where each start ended. Several starts at the level of the best one (orange) "
-           "mean that the optimum is found again and again; a lone best means that it may be luck.</figcaption></figure>";
+    out +=
+        "<figure>" + plot +
+        "<figcaption>Where each start ended. Several starts at the level of the best one (orange) "
+        "mean that the optimum is found again and again; a lone best means that it may be luck.</figcaption></figure>";
   return out + "</div>\n<h3>Time spent where</h3>\n" + time_table(result.timing) + "</section>\n";
 }
 
@@ -175,36 +191,51 @@ std::string input_section(const Result& result) {
          item("File", "<code>" + escape(result.source) + "</code>") +
          item("Format", escape(measured::kFormatNames[static_cast<std::size_t>(result.format)])) +
          item("SHA-256", "<code>" + escape(result.sha256) + "</code>") +
-         item("Coverage", valid_share(c) + "; left out: " + std::to_string(c.negative) + " negative (MERL marks with it what "
-              "was not measured), " + std::to_string(c.not_finite) + " not finite") +
+         item("Coverage", valid_share(c) + "; left out: " + std::to_string(c.negative) +
+                              " negative (MERL marks with it what "
+                              "was not measured), " +
+                              std::to_string(c.not_finite) + " not finite") +
          item("Fitted on", std::string(result.options.on == Domain::kSlice ? "the standard slice" : "the whole table") +
-              ", θi and θo up to " + cut_words(result) + ", " +
-              (result.options.loss == Loss::kLog ? "log" : "cube-root") + " loss") +
-         item("Pattern", escape(result.pattern.group) + " (stops against the middle: top " + fixed(result.pattern.fresnel_stops, 2) +
-              ", right " + fixed(result.pattern.retroreflection_stops, 2) + ", top right corner " +
-              fixed(result.pattern.corner_stops, 2) + ")") +
+                               ", θi and θo up to " + cut_words(result) + ", " +
+                               (result.options.loss == Loss::kLog ? "log" : "cube-root") + " loss") +
+         item("Pattern", escape(result.pattern.group) + " (stops against the middle: top " +
+                             fixed(result.pattern.fresnel_stops, 2) + ", right " +
+                             fixed(result.pattern.retroreflection_stops, 2) + ", top right corner " +
+                             fixed(result.pattern.corner_stops, 2) + ")") +
          item("Program", "Likeness " LIKENESS_VERSION) + "</dl>\n<pre><code>" + escape(command_line(result)) +
          "</code></pre>\n</section>\n";
 }
 
 std::string glossary_section(const Result& result) {
-  const auto item = [](std::string_view name, std::string_view text) { return element("dt", name) + element("dd", text) + "\n"; };
+  const auto item = [](std::string_view name, std::string_view text) {
+    return element("dt", name) + element("dd", text) + "\n";
+  };
   return "<section id=\"glossary\"><h2>Words on this page</h2>\n<dl>\n" +
-         item("BRDF, f", "how much of the light from one direction a surface sends to another, per steradian; without the cosine.") +
+         item("BRDF, f",
+              "how much of the light from one direction a surface sends to another, per steradian; without the "
+              "cosine.") +
          item("θi, θo", "angles of light and camera to the surface's normal.") +
          item("half vector", "the direction midway between light and camera.") +
          item("θh", "angle between half vector and normal: 0 where a mirror would reflect the light to the camera.") +
-         item("θd", "angle between half vector and light: 0 where light and camera coincide, 90° where they face each other.") +
-         item("slice", "f over θh and θd at φd = 90°, the plane in which the talk on The Callisto Protocol compares materials.") +
+         item("θd",
+              "angle between half vector and light: 0 where light and camera coincide, 90° where they face each "
+              "other.") +
+         item(
+             "slice",
+             "f over θh and θd at φd = 90°, the plane in which the talk on The Callisto Protocol compares materials.") +
          item("specular peak", "left edge: mirror reflection; its width is the roughness.") +
          item("Fresnel peak", "top: reflection that grows at grazing angles.") +
          item("retroreflection", "right edge: light sent back to where it came from, strong on rough surfaces.") +
          item("stop, EV", "a factor of two in light.") +
-         item("slice error", "RMS difference over the slice in percent of f = 1 per steradian, values above 1 counted as 1. "
+         item("slice error",
+              "RMS difference over the slice in percent of f = 1 per steradian, values above 1 counted as 1. "
               "Dark materials have small slice errors by nature: read the log RMS beside it.") +
          item("log RMS", "RMS difference of logarithms, which weighs dark and bright parts more evenly.") +
-         item("tier", "how many of Callisto's parameters are free: base, advanced or full; 'plain' rows belong to every tier.") +
-         item("cut", "samples with light or camera more than " + plain(result.options.cut_deg) + "° from the normal are not used.") +
+         item(
+             "tier",
+             "how many of Callisto's parameters are free: base, advanced or full; 'plain' rows belong to every tier.") +
+         item("cut", "samples with light or camera more than " + plain(result.options.cut_deg) +
+                         "° from the normal are not used.") +
          "</dl>\n</section>\n";
 }
 
@@ -214,8 +245,8 @@ std::string command_line(const Result& result) {
   const Options& o = result.options;
   std::string out = "likeness fit " + as_shell_word(result.source) + " --model " + as_shell_word(o.model);
   if (o.tier != brdf::Tier::kPlain) out += " --tier " + std::string(brdf::kTierNames[static_cast<std::size_t>(o.tier)]);
-  out += std::string(" --on ") + (o.on == Domain::kSlice ? "slice" : "table") + " --cut " + plain(o.cut_deg) + " --loss " +
-         (o.loss == Loss::kLog ? "log" : "cuberoot");
+  out += std::string(" --on ") + (o.on == Domain::kSlice ? "slice" : "table") + " --cut " + plain(o.cut_deg) +
+         " --loss " + (o.loss == Loss::kLog ? "log" : "cuberoot");
   if (o.starts > 0) out += " --starts " + std::to_string(o.starts);
   return out;
 }
@@ -223,11 +254,16 @@ std::string command_line(const Result& result) {
 std::string report_html(const Result& result, const measured::Material& material) {
   std::string out = page_head(result.material + ": " + result.best.label);
   out += "<header>\n<h1>" + escape(result.material) + "</h1>\n<p class=\"verdict\">" + verdict(result) + "</p>\n";
-  out += "<p class=\"quiet\">Percent: RMS difference over the slice, 100 % being a BRDF value of 1 per steradian; lower is nearer. " +
-         escape(measured::kFormatNames[static_cast<std::size_t>(result.format)]) + ", " + valid_share(result.coverage) + ".</p>\n";
-  out += "<nav aria-label=\"On this page\"><a href=\"#pictures\">Pictures</a><a href=\"#metrics\">Metrics</a>"
-         "<a href=\"#parameters\">Parameters</a><a href=\"#fitting\">How the fit went</a><a href=\"#input\">Input and command</a>"
-         "<a href=\"#glossary\">Words</a></nav>\n</header>\n<main>\n";
+  out +=
+      "<p class=\"quiet\">Percent: RMS difference over the slice, 100 % being a BRDF value of 1 per steradian; lower "
+      "is nearer. " +
+      escape(measured::kFormatNames[static_cast<std::size_t>(result.format)]) + ", " + valid_share(result.coverage) +
+      ".</p>\n";
+  out +=
+      "<nav aria-label=\"On this page\"><a href=\"#pictures\">Pictures</a><a href=\"#metrics\">Metrics</a>"
+      "<a href=\"#parameters\">Parameters</a><a href=\"#fitting\">How the fit went</a><a href=\"#input\">Input and "
+      "command</a>"
+      "<a href=\"#glossary\">Words</a></nav>\n</header>\n<main>\n";
   out += pictures_section(result, material);
   out += "<section id=\"metrics\"><h2>Metrics</h2>\n" + metrics_table(result) + "</section>\n";
   out += parameters_section(result) + fitting_section(result) + input_section(result) + glossary_section(result);

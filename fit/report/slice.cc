@@ -71,7 +71,8 @@ Stops difference_in_stops(const SlicePicture& reference, const SlicePicture& mod
   Stops stops(reference.valid.size(), std::numeric_limits<float>::quiet_NaN());
   for (int row = 0; row < kSliceSize; ++row)
     for (int column = 0; column < kSliceSize; ++column) {
-      if (!reference.valid_at(column, row) || !model.valid_at(column, row) || !within_cut(column, row, cut_deg)) continue;
+      if (!reference.valid_at(column, row) || !model.valid_at(column, row) || !within_cut(column, row, cut_deg))
+        continue;
       const double f = std::max(luminance_at(reference, column, row), kDarkest);
       const double g = std::max(luminance_at(model, column, row), kDarkest);
       stops[static_cast<std::size_t>(row * kSliceSize + column)] = static_cast<float>(std::log2(g / f));
@@ -132,11 +133,11 @@ image::DisplayPicture slice_picture(const SlicePicture& slice, double ev) {
   return out;
 }
 
-double exposure_of_median(std::vector<double> luminances, double target) {
+double exposure_of_median(std::vector<double> luminances, double target, double highest_ev) {
   if (luminances.empty()) return 0;
   const auto middle = luminances.begin() + static_cast<std::ptrdiff_t>(luminances.size() / 2);
   std::nth_element(luminances.begin(), middle, luminances.end());
-  return std::clamp(std::round(std::log2(target / std::max(*middle, 1e-9))), -4.0, 8.0);
+  return std::clamp(std::round(std::log2(target / std::max(*middle, 1e-9))), -4.0, highest_ev) + 0.0;  // no -0
 }
 
 double slice_exposure(const SlicePicture& reference, double cut_deg) {
@@ -145,7 +146,7 @@ double slice_exposure(const SlicePicture& reference, double cut_deg) {
     for (int column = 0; column < kSliceSize; ++column)
       if (reference.valid_at(column, row) && within_cut(column, row, cut_deg))
         luminances.push_back(luminance_at(reference, column, row));
-  return exposure_of_median(std::move(luminances), 0.18);
+  return exposure_of_median(std::move(luminances), 0.18, 6);
 }
 
 }  // namespace likeness::fit

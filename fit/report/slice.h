@@ -53,14 +53,14 @@ Color8 no_data_color(int column, int row);
 image::DisplayPicture difference_picture(const Stops& stops);
 image::DisplayPicture slice_picture(const SlicePicture& slice, double ev);
 
-// The exposure [EV, whole stops within -4..8] that brings the median luminance of the valid pixels within the cut
+// The exposure [EV, whole stops within -4..6] that brings the median luminance of the valid pixels within the cut
 // nearest to 0.18.
 double slice_exposure(const SlicePicture& reference, double cut_deg);
 
 // Rec. 709 luminance of linear RGB.
 inline double luminance(double r, double g, double b) { return 0.2126 * r + 0.7152 * g + 0.0722 * b; }
 
-// The exposure in whole stops, within -4..8, that brings the median of these luminances nearest to `target`.
-double exposure_of_median(std::vector<double> luminances, double target);
+// The exposure in whole stops, within -4..highest_ev, that brings the median of these luminances nearest to `target`.
+double exposure_of_median(std::vector<double> luminances, double target, double highest_ev);
 
 }  // namespace likeness::fit

@@ -122,7 +122,7 @@ double spheres_exposure(const SpherePicture& spheres) {
       const auto pixel = spheres.radiance.at(x, y);
       luminances.push_back(luminance(pixel[0], pixel[1], pixel[2]));
     }
-  return exposure_of_median(std::move(luminances), 0.25);
+  return exposure_of_median(std::move(luminances), 0.18, 4);
 }
 
 }  // namespace likeness::fit

@@ -30,7 +30,8 @@ SpherePicture spheres_of(const brdf::AnyBrdf& model);
 // Displayed in sRGB after exposure by `ev`; what has no data is hatched, the background is the same at every exposure.
 image::DisplayPicture spheres_picture(const SpherePicture& spheres, double ev);
 
-// The exposure [EV, whole stops within -4..8] that brings the median luminance of the first sphere nearest to 0.25.
+// The exposure [EV, whole stops within -4..4] that brings the median luminance of the first sphere nearest to 0.18; no
+// higher, so that a black material stays dark.
 double spheres_exposure(const SpherePicture& spheres);
 
 }  // namespace likeness::fit

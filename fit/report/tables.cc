@@ -49,25 +49,25 @@ double albedo_distance(const Metrics& m) {
 std::vector<MetricRow> metric_rows(const Result& result) {
   const Metrics& fitted = result.best.metrics;
   const std::string cut = "θi, θo ≤ " + plain(result.options.cut_deg) + "°";
-  const std::string slice = "standard slice, 90 × 90, φd = 90°, " + cut + "; " +
-                            share(fitted.slice_samples, fitted.slice_grid);
-  const std::string table =
-      "all samples of the file, weighted by solid angle, " + cut + "; " + share(fitted.table_samples, fitted.table_stored);
-  const auto metric = [](double Metrics::*member, int decimals) {
+  const std::string slice =
+      "standard slice, 90 × 90, φd = 90°, " + cut + "; " + share(fitted.slice_samples, fitted.slice_grid);
+  const std::string table = "all samples of the file, weighted by solid angle, " + cut + "; " +
+                            share(fitted.table_samples, fitted.table_stored);
+  const auto metric = [](double Metrics::* member, int decimals) {
     return std::pair{[member](const Candidate& c) { return c.metrics.*member; },
                      [member, decimals](const Candidate& c) { return fixed(c.metrics.*member, decimals); }};
   };
   std::vector<MetricRow> rows;
   const auto add = [&](std::string name, std::string definition, Better better, auto functions) {
-    rows.push_back({std::move(name), better == Better::kLower ? "lower is nearer" : "higher is nearer", std::move(definition), better,
-                    functions.first, functions.second});
+    rows.push_back({std::move(name), better == Better::kLower ? "lower is nearer" : "higher is nearer",
+                    std::move(definition), better, functions.first, functions.second});
   };
-  add("Slice error [%]", "100 × RMS of clamp01 f − clamp01 g over RGB, f the measurement and g the model in 1/sr; " + slice, Better::kLower,
-      metric(&Metrics::slice_error_pct, 2));
+  add("Slice error [%]",
+      "100 × RMS of clamp01 f − clamp01 g over RGB, f the measurement and g the model in 1/sr; " + slice,
+      Better::kLower, metric(&Metrics::slice_error_pct, 2));
   add("Slice log RMS", "RMS of ln(1 + f cos θi) − ln(1 + g cos θi); " + slice, Better::kLower,
       metric(&Metrics::slice_log_rms, 4));
-  add("Whole-table log RMS", "the same difference over " + table, Better::kLower,
-      metric(&Metrics::log_rms_3d, 4));
+  add("Whole-table log RMS", "the same difference over " + table, Better::kLower, metric(&Metrics::log_rms_3d, 4));
   rows.push_back({"Albedo error", "nearest to 0 is best",
                   "bihemispherical reflectance within the cut, model − measured; the measured one is " +
                       three(fitted.albedo_reference, 3) + "; " + table,
@@ -81,9 +81,9 @@ std::vector<MetricRow> metric_rows(const Result& result) {
   add("Sphere PSNR [dB]", "peak signal-to-noise ratio; " + spheres, Better::kHigher, metric(&Metrics::sphere_psnr, 1));
   add("Sphere SSIM", "structural similarity, Wang 2004; " + spheres, Better::kHigher, metric(&Metrics::sphere_ssim, 4));
   const bool log_loss = result.options.loss == Loss::kLog, on_slice = result.options.on == Domain::kSlice;
-  rows.push_back({"Fitted loss", "lower is nearer", std::string("what the fit minimises (") + (log_loss ? "log" : "cube-root") +
-                                     " difference on the " + (on_slice ? "slice" : "whole table") + ", " + cut +
-                                     "); comparable between the columns",
+  rows.push_back({"Fitted loss", "lower is nearer",
+                  std::string("what the fit minimises (") + (log_loss ? "log" : "cube-root") + " difference on the " +
+                      (on_slice ? "slice" : "whole table") + ", " + cut + "); comparable between the columns",
                   Better::kLower, [](const Candidate& c) { return c.loss; },
                   [](const Candidate& c) { return number(c.loss, 4); }});
   rows.push_back({"CPU time of the fit [s]", "", "all starts together; a hand set needs none", Better::kLower,
@@ -106,10 +106,8 @@ std::vector<ParameterValue> parameter_values(const brdf::AnyBrdf& any) {
         std::size_t at = 0;
         brdf::for_each_parameter(model, [&]<class V>(const brdf::Parameter&, const V& value) {
           const brdf::Parameter* const row = &Model::kParameters[at++];
-          if constexpr (std::is_same_v<V, brdf::Rgb<double>>)
-            out.push_back({row, {value.r, value.g, value.b}});
-          else
-            out.push_back({row, {value}});
+          if constexpr (std::is_same_v<V, brdf::Rgb<double>>) out.push_back({row, {value.r, value.g, value.b}});
+          else out.push_back({row, {value}});
         });
       },
       any);
@@ -150,18 +148,21 @@ ParameterCells cells_of(const Candidate& candidate, const ParameterValue& parame
     out.value += (c > 0 ? "<br>" : "") + std::string(channel) + number(parameter.channels[c], 4);
     if (color && c == 0) out.sigma = "<br>";
     const bool free = estimate && estimate->fitted;
-    out.sigma += (c > 0 ? "<br>" : "") +
-                 (free && estimate->matters && std::isfinite(estimate->sigma) ? "± " + number(estimate->sigma, 2) : "-");
+    out.sigma +=
+        (c > 0 ? "<br>" : "") +
+        (free && estimate->matters && std::isfinite(estimate->sigma) ? "± " + number(estimate->sigma, 2) : "-");
     out.fitted = out.fitted || free;
     std::string note;
     if (free && !estimate->matters)
-      note = badge("does not matter") + "because " + escape(estimate->why.empty() ? "the data do not depend on it" : estimate->why);
+      note = badge("does not matter") + "because " +
+             escape(estimate->why.empty() ? "the data do not depend on it" : estimate->why);
     else if (free && estimate->at_bound)
       note = badge(parameter.channels[c] - row.range.low <= row.range.high - parameter.channels[c] ? "at lower bound"
-                                                                                                    : "at upper bound");
+                                                                                                   : "at upper bound");
     if (note.empty()) continue;
     if (note == last_note) continue;  // said once for all channels
-    out.notes += (out.notes.empty() ? "" : "<br>") + (note.find("does not") == std::string::npos ? std::string(channel) : "") + note;
+    out.notes += (out.notes.empty() ? "" : "<br>") +
+                 (note.find("does not") == std::string::npos ? std::string(channel) : "") + note;
     if (note.find("does not") != std::string::npos) last_note = note;
   }
   if (!candidate.estimates.empty() && !out.fitted) out.notes = "left at its default, not fitted";
@@ -184,7 +185,8 @@ std::string metrics_table(const Result& result) {
       "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"Metrics\"><table>\n<thead><tr><th "
       "scope=\"col\">Metric</th>";
   for (const Candidate* candidate : candidates)
-    out += "<th scope=\"col\">" + escape(candidate->label) + (candidate == &result.best ? "<br><small>this fit</small>" : "") + "</th>";
+    out += "<th scope=\"col\">" + escape(candidate->label) +
+           (candidate == &result.best ? "<br><small>this fit</small>" : "") + "</th>";
   out += "</tr></thead>\n<tbody>\n";
   const std::vector<MetricRow> rows = metric_rows(result);
   for (const MetricRow& row : rows) {
@@ -217,7 +219,8 @@ std::string parameters_table(const Candidate& candidate, const std::string& capt
     const brdf::Parameter& row = *parameter.row;
     const ParameterCells cells = cells_of(candidate, parameter);
     out += std::string("<tr") + (fitted && !cells.fitted ? " class=\"fixed\"" : "") + "><th scope=\"row\"><code>" +
-           escape(row.name) + "</code><small>" + escape(row.text) + "</small></th><td class=\"n\">" + cells.value + "</td>";
+           escape(row.name) + "</code><small>" + escape(row.text) + "</small></th><td class=\"n\">" + cells.value +
+           "</td>";
     if (fitted) out += "<td class=\"n\">" + cells.sigma + "</td>";
     out += "<td class=\"n\">" + plain(row.range.low) + " to " + plain(row.range.high) + "</td><td>" +
            (row.unit == "1" ? "none" : escape(row.unit)) + "</td><td>" +

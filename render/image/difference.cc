@@ -37,7 +37,8 @@ Plane product(const Plane& a, const Plane& b) {
 std::array<double, kWindow> gaussian() {
   std::array<double, kWindow> weights{};
   double sum = 0;
-  for (int i = 0; i < kWindow; ++i) sum += weights[i] = std::exp(-0.5 * (i - kWindow / 2) * (i - kWindow / 2) / (kSigma * kSigma));
+  for (int i = 0; i < kWindow; ++i)
+    sum += weights[i] = std::exp(-0.5 * (i - kWindow / 2) * (i - kWindow / 2) / (kSigma * kSigma));
   for (double& w : weights) w /= sum;
   return weights;
 }

@@ -10,9 +10,9 @@
 #include <OpenImageIO/imageio.h>
 
 extern "C" __attribute__((visibility("default"))) int likeness_encode_png_1(const unsigned char* rgb, int width,
-                                                                           int height, likeness_bytes_sink sink,
-                                                                           void* state, char* error,
-                                                                           size_t error_size) {
+                                                                            int height, likeness_bytes_sink sink,
+                                                                            void* state, char* error,
+                                                                            size_t error_size) {
   try {
     const std::unique_ptr<OIIO::ImageOutput> out = OIIO::ImageOutput::create("picture.png");
     if (!out) {

@@ -40,10 +40,8 @@ inline const std::array<float, 256>& srgb_thresholds() {
       std::uint32_t low = 0, high = std::bit_cast<std::uint32_t>(1.0f);
       while (low < high) {
         const std::uint32_t middle = low + (high - low) / 2;
-        if (255.0 * srgb_encode(std::bit_cast<float>(middle)) + 0.5 >= static_cast<double>(k))
-          high = middle;
-        else
-          low = middle + 1;
+        if (255.0 * srgb_encode(std::bit_cast<float>(middle)) + 0.5 >= static_cast<double>(k)) high = middle;
+        else low = middle + 1;
       }
       table[k] = std::bit_cast<float>(low);
     }

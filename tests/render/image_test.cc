@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
-#include <ImfInputFile.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
+#include <ImfInputFile.h>
 
 #include <cmath>
 #include <cstdlib>
@@ -47,10 +47,10 @@ DisplayPicture flat(int width, int height, std::uint8_t value) {
 
 TEST(ToneCurve, EncodesTheStandardsOwnPoints) {
   EXPECT_EQ(srgb_encode(0.0), 0.0);
-  EXPECT_NEAR(srgb_encode(1.0), 1.0, 1e-15);                    // rounding of 1.055 - 0.055
+  EXPECT_NEAR(srgb_encode(1.0), 1.0, 1e-15);                      // rounding of 1.055 - 0.055
   EXPECT_NEAR(srgb_encode(0.0031308), 0.0031308 * 12.92, 1e-15);  // still the line
-  EXPECT_NEAR(srgb_encode(0.18), 0.46135612950, 1e-10);         // the digits written
-  EXPECT_NEAR(srgb_decode(0.5), 0.21404114048, 1e-10);          // the digits written
+  EXPECT_NEAR(srgb_encode(0.18), 0.46135612950, 1e-10);           // the digits written
+  EXPECT_NEAR(srgb_decode(0.5), 0.21404114048, 1e-10);            // the digits written
   EXPECT_EQ(srgb_encode(-0.18), -srgb_encode(0.18));
 }
 
@@ -97,9 +97,9 @@ TEST(Picture, IsStoredRowByRowFromTheTop) {
 
 TEST(Psnr, OfOneWrongValueIsTheHandComputedOne) {
   DisplayPicture photo = flat(2, 2, 100), render = photo;
-  render.rgb[5] = 106;  // mean squared difference 36 / 12 = 3
+  render.rgb[5] = 106;                                                          // mean squared difference 36 / 12 = 3
   EXPECT_NEAR(psnr(photo, render), 10 * std::log10(255.0 * 255.0 / 3), 1e-12);  // rounding
-  EXPECT_NEAR(psnr(photo, render), 43.3595, 1e-4);                             // the digits written
+  EXPECT_NEAR(psnr(photo, render), 43.3595, 1e-4);                              // the digits written
 }
 
 TEST(Psnr, OfEqualPicturesIsInfinite) {
@@ -131,8 +131,8 @@ TEST(Ssim, OfOneWindowIsTheHandComputedSum) {
         mx += w / sum * a, my += w / sum * b, xx += w / sum * a * a, yy += w / sum * b * b, xy += w / sum * a * b;
       }
   const double c1 = 6.5025, c2 = 58.5225;
-  const double expected = (2 * mx * my + c1) * (2 * (xy - mx * my) + c2) /
-                          ((mx * mx + my * my + c1) * (xx - mx * mx + yy - my * my + c2));
+  const double expected =
+      (2 * mx * my + c1) * (2 * (xy - mx * my) + c2) / ((mx * mx + my * my + c1) * (xx - mx * mx + yy - my * my + c2));
   EXPECT_NEAR(ssim(photo, render), expected, 1e-12);  // another order of the same sums
 }
 
@@ -191,8 +191,8 @@ TEST(Png, IsWholeInMemoryAndTheSameInAFile) {
   EXPECT_EQ(bytes.substr(0, 8), "\x89PNG\r\n\x1a\n");
   EXPECT_EQ(png_size_at(bytes, 16), 31);
   EXPECT_EQ(png_size_at(bytes, 20), 17);
-  EXPECT_EQ(bytes[24], 8);                                          // bits a channel
-  EXPECT_EQ(bytes[25], 2);                                          // RGB
+  EXPECT_EQ(bytes[24], 8);  // bits a channel
+  EXPECT_EQ(bytes[25], 2);  // RGB
   EXPECT_EQ(bytes.substr(bytes.size() - 8, 4), "IEND");
   write_png(folder / "picture.png", picture);
   EXPECT_EQ(files::read_whole(folder / "picture.png", 1 << 20), bytes);
