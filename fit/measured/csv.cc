@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <tuple>
 #include <vector>
 
 #include "fit/measured/half_angles.h"
@@ -48,6 +49,11 @@ std::optional<double> number_in(std::string_view text) {
   return value;
 }
 
+// By all that decides a mean, so that the order of the rows does not.
+bool before(const Scattered& a, const Scattered& b) {
+  return std::tie(a.angles, a.r, a.g, a.b, a.weight) < std::tie(b.angles, b.r, b.g, b.b, b.weight);
+}
+
 class Csv final : public Material {
  public:
   Csv(std::string_view text, const std::string& name) {
@@ -66,7 +72,7 @@ class Csv final : public Material {
   void for_each_sample(const std::function<void(const Sample&)>& visit) const override {
     Sample sample;
     for (const Scattered& s : samples_.samples()) {
-      directions_at({s.theta_i, s.theta_o, s.phi}, sample.to_light, sample.to_view);
+      directions_at({s.angles[0], s.angles[1], s.angles[2]}, sample.to_light, sample.to_view);
       sample.f = {s.r, s.g, s.b};
       sample.weight = double{s.weight} * scale_;
       // theta is stored in float, so 90 deg may lie a rounding above or below the horizon.
@@ -121,14 +127,14 @@ class Csv final : public Material {
     if (rows.empty())
       refuse(source, "no valid row among " + std::to_string(coverage_.stored) + " (" + std::to_string(coverage_.negative) +
              " negative, " + std::to_string(coverage_.not_finite) + " NaN or Inf)", "at least one");
-    std::sort(rows.begin(), rows.end(), ScatteredSamples::by_angles);
+    std::sort(rows.begin(), rows.end(), before);
     average_repeats(rows);
     coverage_.valid = rows.size();
     if (place_[kWeight] < 0) {
       double total = 0;
       for (Scattered& s : rows) {
         const auto sine = [](double theta) { return std::max(std::sin(theta), std::sin(kPi / 360)); };
-        s.weight = float(sine(s.theta_i) * sine(s.theta_o));
+        s.weight = float(sine(s.angles[0]) * sine(s.angles[1]));
         total += s.weight;
       }
       scale_ = 4 * kPi * kPi / total;
@@ -173,7 +179,7 @@ class Csv final : public Material {
     if (all) return;
     coverage_.clipped += any;
     const auto color = [&](Column c) { return float(std::max(v[c], 0.0)); };
-    rows.push_back({float(v[kThetaI]), float(v[kThetaO]), float(v[kPhi]), color(kR), color(kG), color(kB), float(v[kWeight])});
+    rows.push_back({{float(v[kThetaI]), float(v[kThetaO]), float(v[kPhi])}, color(kR), color(kG), color(kB), float(v[kWeight])});
   }
 
   // One row for each run of equal angles: the mean value, the summed weight.
@@ -181,7 +187,7 @@ class Csv final : public Material {
     std::size_t kept = 0;
     for (std::size_t from = 0, to = 0; from < rows.size(); from = to) {
       double r = 0, g = 0, b = 0, weight = 0;
-      for (to = from; to < rows.size() && !ScatteredSamples::by_angles(rows[from], rows[to]); ++to)
+      for (to = from; to < rows.size() && rows[from].angles == rows[to].angles; ++to)
         r += rows[to].r, g += rows[to].g, b += rows[to].b, weight += rows[to].weight;
       const double n = double(to - from);
       rows[kept] = rows[from];

@@ -40,10 +40,11 @@ inline Elevations elevations(const Direction& l, const Direction& v) {
   return {elevation(l), elevation(v), std::abs(std::atan2(l.x * v.y - l.y * v.x, l.x * v.x + l.y * v.y))};
 }
 
-// A pair with the light in the x-z plane.
+// A pair with the light in the x-z plane. The viewer is on the side of -y, where phi_d of the pair is that of the MERL bin
+// whose elevations these are: the mirrored pair belongs to another bin, though a mirror-symmetric f is the same there.
 inline void directions_at(const Elevations& e, Direction& l, Direction& v) {
   l = {std::sin(e.theta_i), 0, std::cos(e.theta_i)};
-  v = {std::sin(e.theta_o) * std::cos(e.phi), std::sin(e.theta_o) * std::sin(e.phi), std::cos(e.theta_o)};
+  v = {std::sin(e.theta_o) * std::cos(e.phi), -std::sin(e.theta_o) * std::sin(e.phi), std::cos(e.theta_o)};
 }
 
 }  // namespace likeness::measured

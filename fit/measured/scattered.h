@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
 #include <vector>
 
 #include "fit/measured/half_angles.h"
@@ -11,36 +10,37 @@ namespace likeness::measured {
 
 // A sample at theta_i, theta_o in 0..pi/2 and phi in 0..pi, radians.
 struct Scattered {
-  float theta_i, theta_o, phi;
+  std::array<float, 3> angles;  // theta_i, theta_o, phi
   float r, g, b;
   float weight;
 };
 
-// Isotropic samples at any places, found by nearness.
+// Isotropic samples at any places, found by nearness: a k-d tree over the three angles.
 class ScatteredSamples {
  public:
   ScatteredSamples() = default;
-  // Samples must be sorted by by_angles, without two of the same angles.
-  explicit ScatteredSamples(std::vector<Scattered> samples, double reach);
+  // No two samples may have the same angles. Puts them into the tree's order, which depends on nothing but them.
+  ScatteredSamples(std::vector<Scattered> samples, double reach);
 
   const std::vector<Scattered>& samples() const { return samples_; }
 
-  // The interpolant of csv.h at angles in radians; false, and f untouched, if no sample is in reach.
+  // The interpolant of csv.h; false, and f untouched, if no sample is in reach.
   bool interpolate(const Elevations& at, Rgb& f) const;
 
-  static bool by_angles(const Scattered& a, const Scattered& b);
-
  private:
-  static constexpr int kMost = 7;  // the last one sets the radius
-  struct Near {
-    double distance2;
-    const Scattered* sample;
+  static constexpr std::size_t kLeaf = 8;
+  struct Box {
+    std::array<float, 3> low{0, 0, 0}, high{1.6f, 1.6f, 3.2f};
   };
+  struct Search;
 
-  std::vector<Scattered> samples_;  // by cell of (theta_i, theta_o), then by phi
-  std::vector<std::uint32_t> first_;  // of each cell; one more than cells
+  void build(std::size_t begin, std::size_t end, const Box& box);
+  void visit(std::size_t begin, std::size_t end, const Box& box, Search& search) const;
+  static int widest(const Box& box);
+
+  // A node is a range: its middle sample splits it along the widest side of its box.
+  std::vector<Scattered> samples_;
   double reach_ = 0;
-  int cells_ = 0;  // a side
 };
 
 }  // namespace likeness::measured
