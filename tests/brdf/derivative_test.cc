@@ -62,24 +62,15 @@ Interval smooth_part(Random& random, const Parameter& row) {
   if (row.role == Role::kShape || row.name == "base_color")
     return {row.range.low + (row.name == "roughness" ? 0.15 : 0.02) * width, row.range.high - 0.02 * width};
   switch (random.index(4)) {
-    case 0: return {row.range.low, row.range.low};
-    case 1: return {row.range.high, row.range.high};
-    default: return row.range;
+    case 0:
+      return {row.range.low, row.range.low};
+    case 1:
+      return {row.range.high, row.range.high};
+    default:
+      return row.range;
   }
 }
 
-template <class V>
-struct TypesOf;
-template <class... M>
-struct TypesOf<std::variant<M...>> {
-  using Type = ::testing::Types<M...>;
-};
-struct ModelNames {
-  template <class M>
-  static std::string GetName(int) {
-    return std::string(M::kName);
-  }
-};
 template <class M>
 class DerivativeOf : public ::testing::Test {};
 TYPED_TEST_SUITE(DerivativeOf, TypesOf<AnyBrdf>::Type, ModelNames);
@@ -99,7 +90,8 @@ TYPED_TEST(DerivativeOf, EveryParameterEqualsTheCentralDifference) {
       for (int c = 0; c < 3; ++c) {
         const double want = double((up[c] - down[c]) / (2 * step)), scale = std::abs(want) + value[c] + 1e-12;
         ASSERT_NEAR(got.slope[c], want, 1e-8 * scale) << "case " << i << ", channel " << k;
-        ASSERT_NEAR(lane.slope[c], got.slope[c], 1e-11 * scale) << "case " << i << ", channel " << k;  // batch pow: 1e-14
+        ASSERT_NEAR(lane.slope[c], got.slope[c], 1e-11 * scale)
+            << "case " << i << ", channel " << k;                                       // batch pow: 1e-14
         ASSERT_LE(relative_difference(got.value[c], value[c]), 1e-14) << "case " << i;  // the same operations
       }
     }
@@ -119,7 +111,8 @@ TYPED_TEST(DerivativeOf, DirectionsEqualTheCentralDifference) {
       return v.g;
     };
     const long double step = 1e-6L;  // as above
-    const double by_h = double((at(step, 0) - at(-step, 0)) / (2 * step)), by_d = double((at(0, step) - at(0, -step)) / (2 * step));
+    const double by_h = double((at(step, 0) - at(-step, 0)) / (2 * step)),
+                 by_d = double((at(0, step) - at(0, -step)) / (2 * step));
     ASSERT_NEAR(f.g.v[0], by_h, 1e-8 * (std::abs(by_h) + f.g.a)) << i;
     ASSERT_NEAR(f.g.v[1], by_d, 1e-8 * (std::abs(by_d) + f.g.a)) << i;
   }

@@ -55,7 +55,8 @@ Channels channels(const Rgb<S>& f) {
 // f of directions that are rounded to S before anything else.
 template <Scalar S, template <class> class M>
 Channels eval_in(const M<double>& model, const Vec3<double>& to_light, const Vec3<double>& to_view) {
-  return channels(model_in<S>(model).eval(Geometry<Value<S>>(vector_in<Value<S>>(to_light), vector_in<Value<S>>(to_view))));
+  return channels(
+      model_in<S>(model).eval(Geometry<Value<S>>(vector_in<Value<S>>(to_light), vector_in<Value<S>>(to_view))));
 }
 // f of half-angle quantities that are rounded to S.
 template <Scalar S, template <class> class M>

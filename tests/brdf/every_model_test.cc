@@ -8,19 +8,6 @@
 namespace likeness::brdf {
 namespace {
 
-template <class V>
-struct TypesOf;
-template <class... M>
-struct TypesOf<std::variant<M...>> {
-  using Type = ::testing::Types<M...>;
-};
-struct ModelNames {
-  template <class M>
-  static std::string GetName(int) {
-    return std::string(M::kName);
-  }
-};
-
 // A model whose parameters are floats. Through volatile, because g++ 12 at -O2 drops a vectorized rounding.
 template <template <class> class M>
 M<double> in_float(const M<double>& model) {
@@ -69,7 +56,8 @@ double albedo(const M& model, double z) {
   double sum = 0;
   for (int i = 0; i < rings; ++i)
     for (int j = 0; j < sectors; ++j) {
-      const double mu = (i + 0.5) / rings, t = (j + 0.5) / sectors;  // azimuth pi - pi t^2 from the view, one half plane
+      const double mu = (i + 0.5) / rings,
+                   t = (j + 0.5) / sectors;  // azimuth pi - pi t^2 from the view, one half plane
       sum += channels(model.eval(Random::direction_at(mu, std::numbers::pi * (1 - t * t)), v))[0] * mu * 2 * t;
     }
   return 2 * std::numbers::pi * sum / (rings * sectors);
@@ -84,7 +72,7 @@ TEST(Ggx, AlbedoNeverExceedsOneAndNearlyReachesItWhenSmooth) {
   for (const double roughness : {0.3, 0.5, 0.7, 1.0})
     for (const double z : {0.05, 0.2, 0.5, 1.0}) {
       const double a = albedo(Ggx<double>{Rgb<double>(1), roughness}, z);
-      EXPECT_LE(a, 1 + 2e-3) << roughness << " " << z;  // the quadrature's own error at roughness 0.3, z 0.05
+      EXPECT_LE(a, 1 + 2e-3) << roughness << " " << z;  // the quadrature at roughness 0.3, z 0.05
     }
   EXPECT_GT(albedo(Ggx<double>{Rgb<double>(1), 0.3}, 1), 0.98);  // what a second bounce would return: 1.3 % measured
   // alpha = 1 at normal view: D = 1 / pi, V = 1 / (2 (1 + mu)), and the integral of mu / (1 + mu) is 1 - ln 2.
@@ -93,7 +81,9 @@ TEST(Ggx, AlbedoNeverExceedsOneAndNearlyReachesItWhenSmooth) {
 
 // The numbers of docs/models/burley_diffuse.md, to their last digit.
 TEST(BurleyDiffuse, AlbedoIsAsItsPageSays) {
-  const auto at = [](double roughness, double z) { return albedo(BurleyDiffuse<double>{Rgb<double>(1), roughness}, z); };
+  const auto at = [](double roughness, double z) {
+    return albedo(BurleyDiffuse<double>{Rgb<double>(1), roughness}, z);
+  };
   EXPECT_NEAR(at(0, 1), 0.976, 6e-4);
   EXPECT_NEAR(at(0.5, 1), 1.006, 6e-4);
   EXPECT_NEAR(at(1, 0.2), 1.245, 6e-4);
@@ -102,7 +92,7 @@ TEST(BurleyDiffuse, AlbedoIsAsItsPageSays) {
 
 // ---- the microfacets of a unit patch project onto exactly that patch.
 
-// Integral of D cos for an isotropic D of (cos, sin^2), by Simpson's rule in ln(1 + sin^2 / alpha^2): the peak's own scale.
+// Integral of D cos for an isotropic D of (cos, sin^2): Simpson's rule in ln(1 + sin^2 / alpha^2), the peak's own scale.
 template <class D>
 double projected_area(double alpha, D&& d) {
   const int steps = 2000;
@@ -232,21 +222,30 @@ Drawn draw_pair(Random& random) {
   const double phi = random.uniform(0, 2 * std::numbers::pi);
   const Vec3<double> l = Random::direction_at(edge_height(random), phi);
   switch (random.index(5)) {
-    case 0: return {l, l};
-    case 1: return {l, {-l.x, -l.y, l.z}};
-    case 2: return {l, {-l.x, -l.y, -l.z}};
-    case 3: return {l, Random::direction_at(edge_height(random), phi + std::numbers::pi)};
-    default: return {l, Random::direction_at(edge_height(random), random.uniform(0, 7))};
+    case 0:
+      return {l, l};
+    case 1:
+      return {l, {-l.x, -l.y, l.z}};
+    case 2:
+      return {l, {-l.x, -l.y, -l.z}};
+    case 3:
+      return {l, Random::direction_at(edge_height(random), phi + std::numbers::pi)};
+    default:
+      return {l, Random::direction_at(edge_height(random), random.uniform(0, 7))};
   }
 }
 template <class M>
 M draw_edge_model(Random& random) {
   return random_model<M>(random, [&](const Parameter& row) -> Interval {
     switch (random.index(4)) {
-      case 0: return {row.range.low, row.range.low};
-      case 1: return {row.range.high, row.range.high};
-      case 2: return {row.initial, row.initial};
-      default: return row.range;
+      case 0:
+        return {row.range.low, row.range.low};
+      case 1:
+        return {row.range.high, row.range.high};
+      case 2:
+        return {row.initial, row.initial};
+      default:
+        return row.range;
     }
   });
 }

@@ -14,14 +14,15 @@ class HardCases : public ::testing::Test {
   void expect_sound(const M<double>& model, const char* what) {
     for (const Pair& pair : hard_pairs()) {
       const Channels f = eval_in<S>(model, pair.to_light, pair.to_view);
-      EXPECT_TRUE(finite_and_not_negative(f)) << what << ", " << pair.name << ": f = " << f[0] << " " << f[1] << " " << f[2];
+      EXPECT_TRUE(finite_and_not_negative(f))
+          << what << ", " << pair.name << ": f = " << f[0] << " " << f[1] << " " << f[2];
     }
     for (double theta_h : {0.0, 0.4, std::numbers::pi / 2})
       for (double theta_d : {0.0, 1e-7, 0.7, std::numbers::pi / 2 - 1e-7, std::numbers::pi / 2})
         for (double phi_d : {0.0, 1.0, std::numbers::pi / 2}) {
           const Channels f = eval_in<S>(model, geometry_at(theta_h, theta_d, phi_d));
-          EXPECT_TRUE(finite_and_not_negative(f)) << what << ", theta_h " << theta_h << ", theta_d " << theta_d << ", phi_d "
-                                                  << phi_d << ": f = " << f[0];
+          EXPECT_TRUE(finite_and_not_negative(f))
+              << what << ", theta_h " << theta_h << ", theta_d " << theta_d << ", phi_d " << phi_d << ": f = " << f[0];
         }
   }
   template <class M>
@@ -32,7 +33,8 @@ class HardCases : public ::testing::Test {
 TYPED_TEST_SUITE(HardCases, Kinds, KindNames);
 
 TYPED_TEST(HardCases, RoughnessZeroAndOneAreSound) {
-  this->template sweep<Callisto<double>>({"roughness", "metallic", "dual_specular_opacity", "dual_specular_roughness_scale"});
+  this->template sweep<Callisto<double>>(
+      {"roughness", "metallic", "dual_specular_opacity", "dual_specular_roughness_scale"});
   this->template sweep<Disney2012<double>>({"roughness", "metallic", "anisotropic", "subsurface"});
   this->template sweep<Ggx<double>>({"roughness", "f0"});
   this->template sweep<BurleyDiffuse<double>>({"roughness", "base_color"});
@@ -45,8 +47,10 @@ TYPED_TEST(HardCases, DisneyLayersAtTheirEndsAreSound) {
 }
 
 TYPED_TEST(HardCases, EveryFalloffAtZeroAndOneIsSound) {
-  this->template sweep<Callisto<double>>({"diffuse_fresnel_falloff", "diffuse_fresnel_tangent_falloff", "diffuse_fresnel"});
-  this->template sweep<Callisto<double>>({"retroreflection_falloff", "retroreflection_tangent_falloff", "retroreflection"});
+  this->template sweep<Callisto<double>>(
+      {"diffuse_fresnel_falloff", "diffuse_fresnel_tangent_falloff", "diffuse_fresnel"});
+  this->template sweep<Callisto<double>>(
+      {"retroreflection_falloff", "retroreflection_tangent_falloff", "retroreflection"});
   this->template sweep<Callisto<double>>({"specular_fresnel_falloff", "specular", "metallic"});
 }
 
@@ -70,7 +74,8 @@ TYPED_TEST(HardCases, FalloffsOfOneMakeTheIntensityAConstantFactor) {
 
 TYPED_TEST(HardCases, IntensitiesAtZeroAndGreatestAreSound) {
   this->template sweep<Callisto<double>>({"diffuse_fresnel", "retroreflection", "base_color", "smooth_terminator"});
-  this->template sweep<Callisto<double>>({"diffuse_fresnel", "diffuse_fresnel_tint", "retroreflection", "retroreflection_tint"});
+  this->template sweep<Callisto<double>>(
+      {"diffuse_fresnel", "diffuse_fresnel_tint", "retroreflection", "retroreflection_tint"});
 }
 
 TYPED_TEST(HardCases, TheTerminatorAtItsEndsIsSound) {
@@ -93,7 +98,8 @@ TYPED_TEST(HardCases, ATerminatorOfLengthZeroChangesNothing) {
 TYPED_TEST(HardCases, NothingShinesAtOrBelowTheHorizon) {
   const auto dark = [](const auto& model) {
     for (const Pair& pair : dark_pairs())
-      EXPECT_EQ(eval_in<TypeParam>(model, pair.to_light, pair.to_view), (Channels{0, 0, 0})) << model.kName << ", " << pair.name;
+      EXPECT_EQ(eval_in<TypeParam>(model, pair.to_light, pair.to_view), (Channels{0, 0, 0}))
+          << model.kName << ", " << pair.name;
   };
   dark(Callisto<double>{});
   dark(Disney2012<double>{.sheen = 1, .clearcoat = 4});
@@ -160,8 +166,10 @@ void expect_continuous(const M& model, const std::vector<Join>& joins) {
         });
         f[side] = channels(moved.eval(l, v));
       }
-      for (int c = 0; c < 3; ++c)  // 2e-9 apart in the parameter; roughness reaches f in the power -4: 1e-8, and 4 for pow
-        EXPECT_LE(relative_difference(f[0][c], f[1][c]), 4e-8) << M::kName << ", " << join.name << " around " << join.at;
+      for (int c = 0; c < 3;
+           ++c)  // 2e-9 apart in the parameter; roughness reaches f in the power -4: 1e-8, and 4 for pow
+        EXPECT_LE(relative_difference(f[0][c], f[1][c]), 4e-8)
+            << M::kName << ", " << join.name << " around " << join.at;
     }
   }
 }
@@ -172,16 +180,16 @@ TEST(HardCases, NoJumpWhereAParameterIsClamped) {
   callisto.dual_specular_opacity = 0.4;
   callisto.diffuse_fresnel = 5;
   callisto.retroreflection = 4;
-  expect_continuous(callisto, {{"roughness", 0.01},                      // alpha kept above 1e-4
-                               {"roughness", 0.5},                       // second lobe's roughness reaches 1 (scale 2)
-                               {"dual_specular_roughness_scale", 4},     // the same, by the scale
-                               {"specular_fresnel_falloff", 0.5},        // t(2 - r) starts to clamp; power5 switches form
-                               {"diffuse_fresnel_falloff", 0.5},         // power5 switches form
+  expect_continuous(callisto, {{"roughness", 0.01},                   // alpha kept above 1e-4
+                               {"roughness", 0.5},                    // second lobe's roughness reaches 1 (scale 2)
+                               {"dual_specular_roughness_scale", 4},  // the same, by the scale
+                               {"specular_fresnel_falloff", 0.5},     // t(2 - r) starts to clamp; power5 switches form
+                               {"diffuse_fresnel_falloff", 0.5},      // power5 switches form
                                {"retroreflection_falloff", 0.5},
                                {"smooth_terminator_length", 1e-3}});
   Disney2012<double> disney{.metallic = 0.3, .roughness = 0.25, .anisotropic = 0.6};
-  expect_continuous(disney, {{"roughness", std::sqrt(0.001 * std::sqrt(1 - 0.54))},   // alpha_x kept above 0.001
-                             {"roughness", std::sqrt(0.001 / std::sqrt(1 - 0.54))},   // alpha_y
+  expect_continuous(disney, {{"roughness", std::sqrt(0.001 * std::sqrt(1 - 0.54))},  // alpha_x kept above 0.001
+                             {"roughness", std::sqrt(0.001 / std::sqrt(1 - 0.54))},  // alpha_y
                              {"anisotropic", 0.5}});
 }
 
@@ -192,7 +200,8 @@ TEST(HardCases, NoJumpWhereTheTerminatorEnds) {
   double last = channels(model.eval(at_height(1e-5, 0), at_height(0.8, 2)))[0];
   for (double z = 2e-5; z < 0.9; z += 1e-5) {
     const double f = channels(model.eval(at_height(z, 0), at_height(0.8, 2)))[0];
-    ASSERT_NEAR(f, last, 2e-5) << z;  // |df/dz| <= 1.5 / length * f / mask, about 1.6; a jump would be of the order of f
+    ASSERT_NEAR(f, last, 2e-5)
+        << z;  // |df/dz| <= 1.5 / length * f / mask, about 1.6; a jump would be of the order of f
     last = f;
   }
 }

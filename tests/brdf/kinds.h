@@ -25,6 +25,20 @@ struct KindNames {
   static constexpr bool kIsFloat = std::is_same_v<typename Arithmetic<S>::Number, float>;
 };
 
+// The models of AnyBrdf, for a suite typed over them.
+template <class V>
+struct TypesOf;
+template <class... M>
+struct TypesOf<std::variant<M...>> {
+  using Type = ::testing::Types<M...>;
+};
+struct ModelNames {
+  template <class M>
+  static std::string GetName(int) {
+    return std::string(M::kName);
+  }
+};
+
 template <class S>
 inline constexpr bool kIsFloat = std::is_same_v<typename Arithmetic<S>::Number, float>;
 

@@ -23,7 +23,8 @@ std::string markdown_table() {
   bool tiers = false;
   for (const Parameter& row : M::kParameters) tiers = tiers || row.tier != Tier::kPlain;
   std::string text = "| parameter | range | usual | default |";
-  text += tiers ? " tier | what it does |\n| --- | --- | --- | --- | --- | --- |\n" : " what it does |\n| --- | --- | --- | --- | --- |\n";
+  text += tiers ? " tier | what it does |\n| --- | --- | --- | --- | --- | --- |\n"
+                : " what it does |\n| --- | --- | --- | --- | --- |\n";
   for (const Parameter& row : M::kParameters) {
     text += "| `" + std::string(row.name) + "` | " + interval_text(row.range, row.channels) + " | " +
             interval_text(row.typical, row.channels) + " | " + shortest(row.initial) + " | ";

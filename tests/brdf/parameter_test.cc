@@ -41,7 +41,8 @@ TEST(Parameters, ATintNamesTheScaleThatItMultiplies) {
     for (const Parameter& row : M::kParameters) {
       EXPECT_EQ(row.role == Role::kTint, !row.tints.empty()) << row.name;
       bool found = row.tints.empty();
-      for (const Parameter& other : M::kParameters) found = found || (other.name == row.tints && other.role == Role::kScale);
+      for (const Parameter& other : M::kParameters)
+        found = found || (other.name == row.tints && other.role == Role::kScale);
       EXPECT_TRUE(found) << M::kName << ": " << row.name << " tints " << row.tints;
     }
   });
@@ -107,9 +108,11 @@ TEST(ModelPages, ParameterTablesAreThoseOfTheHeaders) {
     std::ifstream in(path);
     const std::string page{std::istreambuf_iterator<char>(in), {}};
     const Span span = table_span(page, M::kName);
-    ASSERT_GT(span.first, 0u) << path << ": no line \"<!-- table: " << M::kName << " -->\" followed by \"<!-- end -->\"";
+    ASSERT_GT(span.first, 0u) << path << ": no line \"<!-- table: " << M::kName
+                              << " -->\" followed by \"<!-- end -->\"";
     EXPECT_EQ(page.substr(span.first, span.count), markdown_table<M>())
-        << path << " is not what brdf/" << M::kName << ".h says; rewrite it with: cmake --build BUILD --target docs_tables";
+        << path << " is not what brdf/" << M::kName
+        << ".h says; rewrite it with: cmake --build BUILD --target docs_tables";
   });
 }
 

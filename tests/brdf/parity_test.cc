@@ -50,7 +50,8 @@ void expect_parity(void (*evaluate_lanes)(const float*, float*), const char* nam
 }
 
 TEST(Parity, Avx2EqualsSse2) {
-  if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma")) GTEST_SKIP() << "this processor has no AVX2 with FMA";
+  if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma"))
+    GTEST_SKIP() << "this processor has no AVX2 with FMA";
   expect_parity(with_avx2, "AVX2");
 }
 TEST(Parity, Avx512EqualsSse2) {

@@ -63,7 +63,8 @@ TYPED_TEST(Reference, CallistoMeetsItsFile) {
     });
     ASSERT_EQ(used, row.size()) << "a column that is no parameter";
     const auto g = geometry_at(row.at("theta_h"), row.at("theta_d"), row.at("phi_d"));
-    for (const double f : eval_in<TypeParam>(model, g)) this->expect(f, row.at("ref_f"), "row " + std::to_string(line + 2));
+    for (const double f : eval_in<TypeParam>(model, g))
+      this->expect(f, row.at("ref_f"), "row " + std::to_string(line + 2));
   }
 }
 
@@ -90,7 +91,8 @@ TYPED_TEST(Reference, BurleyDiffuseMeetsItsFile) {
     g.cos_o = row.at("cos_o");
     g.cos_d = row.at("cos_d");
     const BurleyDiffuse<double> model{Rgb<double>(row.at("base_color")), row.at("roughness")};
-    for (const double f : eval_in<TypeParam>(model, g)) this->expect(f, row.at("ref_f"), "row " + std::to_string(line + 2));
+    for (const double f : eval_in<TypeParam>(model, g))
+      this->expect(f, row.at("ref_f"), "row " + std::to_string(line + 2));
   }
 }
 
@@ -131,7 +133,8 @@ Channels by_formula(const Lambert<double>& m, const Angles&) {
 }
 Channels by_formula(const Ggx<double>& m, const Angles& a) {
   const Long lobe = ggx_lobe(Long(m.roughness) * m.roughness, a), rise = schlick(std::cos(a.theta_d));
-  return {double(lerp(m.f0.r, 1, rise) * lobe), double(lerp(m.f0.g, 1, rise) * lobe), double(lerp(m.f0.b, 1, rise) * lobe)};
+  return {double(lerp(m.f0.r, 1, rise) * lobe), double(lerp(m.f0.g, 1, rise) * lobe),
+          double(lerp(m.f0.b, 1, rise) * lobe)};
 }
 Channels by_formula(const BurleyDiffuse<double>& m, const Angles& a) {
   const Long f = burley(m.roughness, a) / kPi;
@@ -174,10 +177,10 @@ Channels by_formula(const Callisto<double>& m, const Angles& a) {
   const Long wide = std::min(1.0L, Long(m.roughness) * m.dual_specular_roughness_scale);
   const Long lobe = lerp(ggx_lobe(alpha, a), ggx_lobe(wide * wide, a), m.dual_specular_opacity);
   const auto channel = [&](Long rho, Long tint_f, Long tint_r, Long tint_o) {
-    const Long c1 = lerp(1, m.diffuse_fresnel * tint_f, h(a.theta_d, m.diffuse_fresnel_falloff, a.theta_h,
-                                                          m.diffuse_fresnel_tangent_falloff)) *
-                    lerp(1, m.retroreflection * tint_r, h(a.theta_h, m.retroreflection_falloff, a.theta_d,
-                                                          m.retroreflection_tangent_falloff));
+    const Long c1 = lerp(1, m.diffuse_fresnel * tint_f,
+                         h(a.theta_d, m.diffuse_fresnel_falloff, a.theta_h, m.diffuse_fresnel_tangent_falloff)) *
+                    lerp(1, m.retroreflection * tint_r,
+                         h(a.theta_h, m.retroreflection_falloff, a.theta_d, m.retroreflection_tangent_falloff));
     const Long c2 = lerp(1, step, mask * m.smooth_terminator * tint_o);
     const Long f0 = lerp(0.08L * m.specular, rho, m.metallic), rn = r(m.specular_fresnel_falloff);
     const Long fresnel = f0 + std::clamp(2 - rn, 0.0L, 1.0L) * (1 - f0) * std::pow(1 - std::cos(a.theta_d), 5 * rn);
@@ -190,20 +193,23 @@ Channels by_formula(const Callisto<double>& m, const Angles& a) {
 
 template <class M>
 class Formula : public ::testing::Test {};
-using Models = ::testing::Types<Callisto<double>, Disney2012<double>, Ggx<double>, Lambert<double>, BurleyDiffuse<double>>;
+using Models =
+    ::testing::Types<Callisto<double>, Disney2012<double>, Ggx<double>, Lambert<double>, BurleyDiffuse<double>>;
 TYPED_TEST_SUITE(Formula, Models);
 
 TYPED_TEST(Formula, EqualsTheModelWrittenIndependently) {
   Random random(20120802);
   for (int i = 0; i < 3000; ++i) {
     const auto model = random_model<TypeParam>(random, [](const Parameter& row) {
-      return row.name == "roughness" ? Interval{0.2, 1} : row.typical;  // sharper: 1 - cos_h^2 loses the reference's digits
+      return row.name == "roughness" ? Interval{0.2, 1}
+                                     : row.typical;  // sharper: 1 - cos_h^2 loses the reference's digits
     });
     const auto l = random.direction(0.02), v = random.direction(0.02);
     const Channels got = eval_in<double>(model, l, v), want = by_formula(model, Angles(l, v));
     for (int c = 0; c < 3; ++c) {
       // 1e-12: directions are unit to 1e-16 only, and D at roughness 0.2 magnifies that by up to 1 / alpha^2 = 600.
-      EXPECT_LE(relative_difference(got[c], want[c]), 1e-12) << "case " << i << ": got " << got[c] << ", want " << want[c];
+      EXPECT_LE(relative_difference(got[c], want[c]), 1e-12)
+          << "case " << i << ": got " << got[c] << ", want " << want[c];
     }
   }
 }

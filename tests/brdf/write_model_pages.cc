@@ -15,7 +15,8 @@ int main(int count, char** arguments) {
     std::string page{std::istreambuf_iterator<char>(in), {}};
     const Span span = table_span(page, M::kName);
     if (span.first == 0) {
-      std::fprintf(stderr, "%s: no line \"<!-- table: %s -->\" followed by \"<!-- end -->\"; add both\n", path.c_str(), M::kName.data());
+      std::fprintf(stderr, "%s: no line \"<!-- table: %s -->\" followed by \"<!-- end -->\"; add both\n", path.c_str(),
+                   M::kName.data());
       failed = 3;
       return;
     }

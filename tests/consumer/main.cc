@@ -1,7 +1,7 @@
 #include <cmath>
 #include <cstdio>
-#include <glm/vec3.hpp>
 #include <variant>
+#include <glm/vec3.hpp>
 
 #include "brdf/any_brdf.h"
 
