@@ -1,0 +1,173 @@
+#include "fit/fit.h"
+
+#include <ctime>
+
+#include "fit/coordinates.h"
+#include "fit/hand_sets.h"
+#include "fit/metrics.h"
+#include "fit/multi_start.h"
+#include "fit/pattern.h"
+#include "fit/uncertainty.h"
+#include "render/files/files.h"
+
+namespace likeness::fit {
+
+namespace {
+
+using brdf::AnyBrdf;
+using brdf::Tier;
+
+double thread_cpu_seconds() {
+  timespec t{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
+AnyBrdf model_named(const std::string& name) {
+  AnyBrdf model;
+  if (!brdf::model_of_name(name, model)) {
+    const std::string near = files::nearest_name(name, brdf::kModelNames.data(), brdf::kModelNames.size());
+    throw files::UsageError("--model " + name + " is not a model" + (near.empty() ? "" : "; did you mean " + near + "?"));
+  }
+  return model;
+}
+
+std::string label_of(const AnyBrdf& model, Tier tier) {
+  const std::string name(brdf::kModelNames[model.index()]);
+  if (name == "callisto")
+    return tier == Tier::kPlain ? "Lambert + GGX"
+                                : "Callisto, " + std::string(brdf::kTierNames[static_cast<std::size_t>(tier)]) + " tier";
+  if (name == "disney2012") return "Disney 2012";
+  if (name == "ggx") return "GGX";
+  if (name == "lambert") return "Lambert";
+  return "Burley diffuse";
+}
+
+// One model or tier fitted; also its folded channels, from which a richer tier starts.
+struct Fitted {
+  Candidate candidate;
+  std::vector<double> channels;
+};
+
+struct Work {
+  const Reference& reference;
+  const SampleSet& samples;
+  const std::function<bool()>& stop;
+
+  Fitted fit(const AnyBrdf& model, Tier tier, int starts, const Fitted* poorer) const {
+    const Coordinates coordinates = coordinates_of(model, tier);
+    MultiStart how{.starts = starts, .warm = {}, .stop = stop};
+    if (poorer != nullptr) how.warm = poorer->channels;
+    Optimum optimum = minimise(samples, coordinates, how);
+    // Equal to the poorer tier within rounding: keep that one's very numbers.
+    if (poorer != nullptr && !(optimum.loss < poorer->candidate.loss)) {
+      optimum.channels = poorer->channels;
+      optimum.loss = poorer->candidate.loss;
+    }
+    Fitted out;
+    out.channels = optimum.channels;
+    Candidate& c = out.candidate;
+    c.label = label_of(model, tier);
+    c.brdf = unfolded(model.index(), optimum.channels);
+    c.loss = optimum.loss;
+    c.convergence = std::move(optimum.steps);
+    c.start_losses = std::move(optimum.start_losses);
+    c.best_start = optimum.best_start;
+    c.cpu_seconds = optimum.cpu_seconds;
+    c.estimates = estimates_of(samples, coordinates, optimum.channels);
+    return out;
+  }
+
+  Candidate by_hand(const std::string& label, const AnyBrdf& model) const {
+    Candidate c;
+    c.label = label;
+    c.brdf = model;
+    c.loss = exact_loss(samples, model.index(), folded(model));
+    return c;
+  }
+};
+
+}  // namespace
+
+void check(const Options& options) {
+  const AnyBrdf model = model_named(options.model);
+  if (options.tier != Tier::kPlain && options.tier != Tier::kFull && !has_tier(model, options.tier))
+    coordinates_of(model, options.tier);  // says what is wrong
+  if (!(options.cut_deg >= 20 && options.cut_deg <= 90))
+    throw files::UsageError("--cut " + std::to_string(options.cut_deg) + " is outside [20, 90] degrees; 80 is usual");
+  if (options.starts < 0 || options.starts > 100000)
+    throw files::UsageError("--starts " + std::to_string(options.starts) + " is outside [0, 100000]; 0 takes the model's own number");
+  if (options.threads < 0 || options.threads > 1024)
+    throw files::UsageError("--threads " + std::to_string(options.threads) + " is outside [0, 1024]; 0 takes one a core");
+}
+
+int default_starts(const std::string& model, Tier tier) {
+  if (model == "callisto" && tier == Tier::kFull) return 48;
+  if (model == "callisto" && tier == Tier::kAdvanced) return 24;
+  return 12;
+}
+
+Result fit_material(const measured::Material& material, const std::string& name, const Options& options,
+                    const std::function<bool()>& stop) {
+  check(options);
+  const AnyBrdf model = model_named(options.model);
+  Result result;
+  result.material = name;
+  result.source = material.source;
+  result.format = material.format();
+  result.coverage = material.coverage();
+  result.options = options;
+
+  double began = thread_cpu_seconds();
+  const auto lap = [&] {
+    const double now = thread_cpu_seconds(), spent = now - began;
+    began = now;
+    return spent;
+  };
+  const Reference reference(material, options.cut_deg);
+  const SampleSet samples = sample_set(material, reference.slice(), options);
+  const Work work{reference, samples, stop};
+  result.timing.load += lap();
+
+  // The chain from Lambert + GGX up to what was asked for.
+  std::vector<Tier> tiers{Tier::kPlain};
+  const bool tiered = has_tier(model, Tier::kFull);
+  if (tiered)
+    for (const Tier tier : {Tier::kBase, Tier::kAdvanced, Tier::kFull})
+      if (static_cast<int>(tier) <= static_cast<int>(options.tier)) tiers.push_back(tier);
+  std::vector<Fitted> chain;
+  for (const Tier tier : tiers) {
+    const bool asked_for = tier == tiers.back();
+    const int own = default_starts(options.model, tier);
+    const int starts = options.starts == 0 ? own : asked_for ? options.starts : std::min(own, options.starts);
+    chain.push_back(work.fit(model, tier, starts, chain.empty() ? nullptr : &chain.back()));
+    lap();
+    (asked_for ? result.timing.fit : result.timing.baselines) += chain.back().candidate.cpu_seconds;
+  }
+  result.best = std::move(chain.back().candidate);
+  chain.pop_back();
+  for (Fitted& fitted : chain) result.baselines.push_back(std::move(fitted.candidate));
+
+  const auto baseline = [&](const AnyBrdf& other, Tier tier) {
+    result.baselines.push_back(work.fit(other, tier, default_starts(options.model, tier), nullptr).candidate);
+    result.timing.baselines += result.baselines.back().cpu_seconds;
+    lap();
+  };
+  if (!tiered) baseline(brdf::Callisto<double>{}, Tier::kPlain);
+  if (options.model != "disney2012") baseline(brdf::Disney2012<double>{}, Tier::kPlain);
+  if (const auto hand = hand_set_of(name)) {
+    result.hand_set = work.by_hand("Callisto, talk's hand set", hand->callisto);
+    result.hand_set_disney = work.by_hand("Disney 2012, talk's hand set", hand->disney);
+  }
+
+  lap();
+  result.best.metrics = reference.of(result.best.brdf);
+  for (Candidate& c : result.baselines) c.metrics = reference.of(c.brdf);
+  if (result.hand_set) result.hand_set->metrics = reference.of(result.hand_set->brdf);
+  if (result.hand_set_disney) result.hand_set_disney->metrics = reference.of(result.hand_set_disney->brdf);
+  result.pattern = pattern_of(result.best.brdf);
+  result.timing.metrics = lap();
+  return result;
+}
+
+}  // namespace likeness::fit
