@@ -22,7 +22,7 @@ enum ExitCode { kDone = 0, kUsage = 2, kBadInput = 3, kOurFault = 4 };
 constexpr auto kFooter = R"(Examples
   likeness fit gold.binary --out out/gold      fit one measured material, and write a report
   likeness fit materials/ --out out/all        fit a folder; interrupt it at any moment, run it again to resume
-  likeness convert paint.mbsdf --to paint.csv  write a measured material in another format
+  likeness convert paint.mbsdf paint.csv       write a measured material in another format
   likeness make material --help                make a measured material with known parameters
 
 Exit codes: 0 done, 1 a check said no, 2 usage, 3 a file cannot be used, 4 the program failed.

@@ -131,7 +131,7 @@ TEST(CommandLine, RefusesAModelThatDoesNotExist) {
 
 TEST(CommandLine, RefusesAFileThatIsNotThere) {
   expect_refusal("fit no_such.binary", 3, {"no_such.binary"});
-  expect_refusal("convert no_such.binary --to a.csv", 3, {"no_such.binary"});
+  expect_refusal("convert no_such.binary a.csv", 3, {"no_such.binary"});
 }
 
 TEST(CommandLine, RefusesAFileThatHoldsSomethingElseAndWritesNothing) {
