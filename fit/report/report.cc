@@ -101,24 +101,24 @@ std::string pictures_section(const Result& result, const measured::Material& mat
   show.spheres_ev = spheres_exposure(spheres);
   const auto ev = [](double x) { return (x > 0 ? "+" : x < 0 ? "−" : "") + plain(std::abs(x)) + " EV"; };
   std::string out =
-      "<section id=\"pictures\"><h2>Measured and modelled, side by side</h2>\n<div class=\"intro\"><div>"
-      "<p>The first row is the measurement, every other row a model. First its <b>slice</b>: a map of how brightly the "
-      "surface reflects, in which every pixel is one pair of light and camera directions. Then where the model is "
-      "<b>darker (blue)</b> or <b>brighter (orange)</b> than the measurement; white means equal. Then <b>spheres</b> "
-      "under "
-      "one distant light at 0° (behind the camera), 90° (from the right) and 130° (almost from behind the "
-      "sphere).</p><p>The dashed line is the cut of " +
-      cut_words(result) +
-      ": beyond it light or camera graze the surface, measurements are poor, and nothing is compared. All slices are "
-      "shown at " +
-      ev(show.slice_ev) + ", all spheres at " + ev(show.spheres_ev) +
-      " (a white matte surface facing the light has value 1 at 0 EV), in sRGB. Hatched: no data; where a measurement "
-      "ends before 90°, its sphere takes the value at 88 to 78° "
-      "from the normal there.</p></div><figure>" +
-      difference_legend() + "<figcaption>scale of every difference picture</figcaption></figure></div>\n" +
-      reference_row(spheres, show);
+      "<section id=\"pictures\"><h2>Measured and modelled, side by side</h2>\n<div class=\"intro\"><p>The first row is "
+      "the measurement, every other row a model: its <b>slice</b> (a map of how brightly it reflects; every pixel is "
+      "one "
+      "pair of light and camera directions), then where it is <b>darker (blue)</b> or <b>brighter (orange)</b> than "
+      "the "
+      "measurement, then <b>spheres</b> lit from 0° (behind the camera), 90° (the right) and 130° (almost from behind "
+      "the sphere). Dashed line: the cut at " +
+      cut_words(result) + ", beyond which nothing is compared.</p><figure>" + difference_legend() +
+      "<figcaption>scale of every difference picture</figcaption></figure></div>\n" + reference_row(spheres, show);
   for (const Candidate* candidate : candidates_of(result))
     out += candidate_row(*candidate, candidate == &result.best, show);
+  out +=
+      "<p class=\"quiet\">All slices are shown at " + ev(show.slice_ev) + ", all spheres at " + ev(show.spheres_ev) +
+      " (a white matte surface that faces the light has value 1 at 0 EV), in sRGB. Beyond the cut, light or camera "
+      "graze the surface and measurements are poor. Hatched: no data; where a measurement ends before 90°, its sphere "
+      "takes the value at 88 to 78° from the normal, if there is one. Differences compare luminances, of which those "
+      "below " +
+      plain(kDarkest) + " per steradian count as " + plain(kDarkest) + ".</p>\n";
   return out + "</section>\n";
 }
 
