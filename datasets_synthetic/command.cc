@@ -1,6 +1,5 @@
 #include "datasets_synthetic/command.h"
 
-#include <CLI/CLI.hpp>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
@@ -9,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <vector>
+#include <CLI/CLI.hpp>
 
 #include "datasets_synthetic/material.h"
 #include "render/files/files.h"
@@ -80,7 +80,8 @@ void assign_text(brdf::AnyBrdf& brdf, const std::string& assignment) {
 }
 
 brdf::AnyBrdf model_asked(const MakeOptions& options) {
-  if (!options.from.empty() && !options.model.empty()) refuse("--from and --model exclude each other; give one of them");
+  if (!options.from.empty() && !options.model.empty())
+    refuse("--from and --model exclude each other; give one of them");
   if (!options.from.empty()) return material::read_material(options.from).brdf;
   brdf::AnyBrdf brdf;
   if (!options.model.empty() && !brdf::model_of_name(options.model, brdf))
@@ -96,10 +97,11 @@ Format format_asked(const MakeOptions& options) {
     if (extension == extension_of(kFormatOf[i])) by_extension = kFormatOf[i];
   }
   if (!options.format.empty() && !by_name)
-    refuse("--format " + in_quotes(options.format) + " is unknown" + near(options.format, kFormats) + " (formats: merl, mbsdf, csv)");
+    refuse("--format " + in_quotes(options.format) + " is unknown" + near(options.format, kFormats) +
+           " (formats: merl, mbsdf, csv)");
   if (by_name && by_extension && by_name != by_extension)
-    refuse("--out " + in_quotes(options.out) + " does not go with --format " + options.format + ", which is written as " +
-           std::string(extension_of(*by_name)) + "; change one of them");
+    refuse("--out " + in_quotes(options.out) + " does not go with --format " + options.format +
+           ", which is written as " + std::string(extension_of(*by_name)) + "; change one of them");
   return by_name ? *by_name : by_extension.value_or(Format::kMerl);
 }
 
@@ -124,7 +126,9 @@ void print_table(const brdf::AnyBrdf& brdf, std::ostream& out) {
     const auto interval = [](const brdf::Interval& range) {
       return "[" + number_text(range.low) + ", " + number_text(range.high) + "]";
     };
-    const auto column = [&](std::string text, std::size_t width) { out << text.append(width > text.size() ? width - text.size() : 1, ' '); };
+    const auto column = [&](std::string text, std::size_t width) {
+      out << text.append(width > text.size() ? width - text.size() : 1, ' ');
+    };
     out << "  ";
     column(std::string(row.name), 34);
     column(interval(row.range) + (row.channels == 3 ? "^3" : ""), 11);
@@ -136,7 +140,8 @@ void print_table(const brdf::AnyBrdf& brdf, std::ostream& out) {
 }
 
 // Where the material of that seed goes: the file that --out names, or a file in the folder that it names.
-std::filesystem::path file_asked(const MakeOptions& options, Format format, std::string_view model, std::uint64_t seed) {
+std::filesystem::path file_asked(const MakeOptions& options, Format format, std::string_view model,
+                                 std::uint64_t seed) {
   const std::filesystem::path out = options.out;
   if (out.extension() == extension_of(format)) return out;
   return out / (std::string(model) + "_" + std::to_string(seed) + std::string(extension_of(format)));
@@ -154,7 +159,8 @@ void run_make(const MakeOptions& options, std::ostream& out) {
     refuse("--noise-by-angle has no noise to shape; add --noise 0.1");
   const bool one_file = std::filesystem::path(options.out).extension() == extension_of(format);
   if (options.count > 1 && one_file)
-    refuse("--count " + std::to_string(options.count) + " needs a folder for --out; " + in_quotes(options.out) + " is one file");
+    refuse("--count " + std::to_string(options.count) + " needs a folder for --out; " + in_quotes(options.out) +
+           " is one file");
 
   std::string separator;
   if (options.json) out << "[";
@@ -175,7 +181,8 @@ void run_make(const MakeOptions& options, std::ostream& out) {
       separator = ",\n";
     } else {
       out << file.string() << " (truth: " << file.stem().string() << ".truth.json, " << file.stem().string()
-          << material::kExtension << ")\n" << std::flush;
+          << material::kExtension << ")\n"
+          << std::flush;
     }
   }
   if (options.json) out << "]\n";
@@ -198,7 +205,8 @@ void add_make(CLI::App& program, int& exit_code) {
   CLI::App* make = program.add_subcommand("make", "Make synthetic data whose truth is known");
   make->require_subcommand(1);
   CLI::App* sub = make->add_subcommand(
-      "material", "Write measured-material files from a model with known parameters and, if asked, the faults of real data");
+      "material",
+      "Write measured-material files from a model with known parameters and, if asked, the faults of real data");
   auto options = std::make_shared<MakeOptions>();
 
   const std::string model = "Model";
@@ -210,16 +218,21 @@ void add_make(CLI::App& program, int& exit_code) {
   sub->add_flag("--random", options->random, "Draw every parameter from its usual range, with the seed")->group(model);
   sub->add_option("--set", options->assignments,
                   "NAME=NUMBER or NAME=R,G,B; may be repeated, and comes after --from and --random")
-      ->allow_extra_args(false)->group(model);
+      ->allow_extra_args(false)
+      ->group(model);
 
   const std::string output = "Output";
   sub->add_option("--out", options->out, "A file ending in .binary, .mbsdf or .csv, or else a folder")->group(output);
   sub->add_option("--format", options->format, "merl, mbsdf or csv (default: by --out, else merl)")->group(output);
-  sub->add_option("--theta-bins", options->theta_bins, "mbsdf, csv: bins over 90 deg of theta (default 45, 30)")->group(output);
-  sub->add_option("--phi-bins", options->phi_bins, "mbsdf, csv: bins over 180 deg of phi (default 90, 60)")->group(output);
-  sub->add_option("--count", options->count, "Make that many, with seeds seed, seed + 1, ... (needs a folder)")->group(output);
+  sub->add_option("--theta-bins", options->theta_bins, "mbsdf, csv: bins over 90 deg of theta (default 45, 30)")
+      ->group(output);
+  sub->add_option("--phi-bins", options->phi_bins, "mbsdf, csv: bins over 180 deg of phi (default 90, 60)")
+      ->group(output);
+  sub->add_option("--count", options->count, "Make that many, with seeds seed, seed + 1, ... (needs a folder)")
+      ->group(output);
   sub->add_option("--seed", options->seed, "Of --random and of the faults (default 0)")->group(output);
-  sub->add_flag("--json", options->json, "Print the manifests as a JSON list instead of one line a file")->group(output);
+  sub->add_flag("--json", options->json, "Print the manifests as a JSON list instead of one line a file")
+      ->group(output);
 
   const std::string faults = "Faults of real data (shares are of the samples above the horizon)";
   const Faults none;
@@ -229,9 +242,11 @@ void add_make(CLI::App& program, int& exit_code) {
                         " (default " + number_text(none.*row.value) + ")")
         ->group(faults);
   sub->add_flag("--noise-by-angle", options->faults.noise_by_angle,
-                "Noise grows as 1 / sqrt of the smaller cosine of light and viewer, as photons become few")->group(faults);
+                "Noise grows as 1 / sqrt of the smaller cosine of light and viewer, as photons become few")
+      ->group(faults);
   sub->add_flag("--half-bin", options->faults.half_bin,
-                "Sample at the lower edges of the bins, where readers expect the centers")->group(faults);
+                "Sample at the lower edges of the bins, where readers expect the centers")
+      ->group(faults);
   sub->add_option("--truncate", options->faults.truncate, "Bytes to cut from the end of the file")->group(faults);
 
   sub->footer(kFooter);

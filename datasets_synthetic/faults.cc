@@ -56,8 +56,7 @@ Counts apply(const Faults& faults, const brdf::AnyBrdf& brdf, std::uint64_t seed
         const bool has_flare = changed;
         if (faults.noise > 0) {
           // Photons counted go with the cosine, so their relative noise with its root; bounded at 89.4 degrees.
-          const double sigma =
-              faults.noise / (faults.noise_by_angle ? std::sqrt(std::max(lowest_cosine, 0.01)) : 1.0);
+          const double sigma = faults.noise / (faults.noise_by_angle ? std::sqrt(std::max(lowest_cosine, 0.01)) : 1.0);
           for (double& v : f) v *= 1 + sigma * noise.normal();
           below_zero = std::min({f[0], f[1], f[2]}) < 0;
         }

@@ -15,8 +15,8 @@ struct Faults {
   double invalid = 0, invalid_above = 90, nan = 0, negative = 0;
   double noise = 0, flare = 0, flare_angle = 8, clip = 0;
   bool noise_by_angle = false;
-  bool half_bin = false;       // samples taken half a bin below where a reader expects them, on every axis
-  std::size_t truncate = 0;    // bytes cut from the end of the file
+  bool half_bin = false;     // samples taken half a bin below where a reader expects them, on every axis
+  std::size_t truncate = 0;  // bytes cut from the end of the file
 };
 
 // The only statement of the numeric faults: options, bounds, help, manifest and docs come from it.
@@ -28,11 +28,14 @@ struct FaultRow {
 };
 inline constexpr std::array kFaults{
     FaultRow{"invalid", &Faults::invalid, {0, 1}, "share of the samples marked 'not measured'"},
-    FaultRow{"invalid-above", &Faults::invalid_above, {0, 90},
+    FaultRow{"invalid-above",
+             &Faults::invalid_above,
+             {0, 90},
              "angle [deg]: samples whose light or viewer is farther from the normal are marked 'not measured'"},
     FaultRow{"nan", &Faults::nan, {0, 1}, "share of the samples with NaN in one channel"},
     FaultRow{"negative", &Faults::negative, {0, 1}, "share of the samples with one channel turned negative"},
-    FaultRow{"noise", &Faults::noise, {0, 10}, "standard deviation of the noise over the value, each channel on its own"},
+    FaultRow{
+        "noise", &Faults::noise, {0, 10}, "standard deviation of the noise over the value, each channel on its own"},
     FaultRow{"flare", &Faults::flare, {0, 1}, "lens flare around the mirror peak, over the peak at normal incidence"},
     FaultRow{"flare-angle", &Faults::flare_angle, {0.1, 90}, "theta_h [deg] at which the flare ends"},
     FaultRow{"clip", &Faults::clip, {0, 1e9}, "value [1/sr] above which the sensor saturates; 0: never"},

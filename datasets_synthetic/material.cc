@@ -1,7 +1,8 @@
 #include "datasets_synthetic/material.h"
 
-#include <nlohmann/json.hpp>
+#include <span>
 #include <vector>
+#include <nlohmann/json.hpp>
 
 #include "datasets_synthetic/random.h"
 #include "render/files/files.h"

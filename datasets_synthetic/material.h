@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 #include "brdf/any_brdf.h"
 #include "datasets_synthetic/faults.h"

@@ -138,9 +138,12 @@ Table tabulate(const brdf::AnyBrdf& brdf, const Grid& grid, int threads) {
 
 std::string bytes_of(const Table& table) {
   switch (table.grid.format) {
-    case Format::kMbsdf: return mbsdf_file(table);
-    case Format::kCsv: return csv_file(table);
-    default: return merl_file(table);
+    case Format::kMbsdf:
+      return mbsdf_file(table);
+    case Format::kCsv:
+      return csv_file(table);
+    default:
+      return merl_file(table);
   }
 }
 

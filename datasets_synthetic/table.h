@@ -33,9 +33,9 @@ brdf::Geometry<double> geometry_of(const Grid& grid, int i, int j, int k);
 enum class State : std::uint8_t {
   kBelowHorizon,  // light or viewer is below the surface: no material has a value there
   kMeasured,
-  kInvalid,       // the format's mark of 'not measured': -1, or in a CSV no row at all
-  kNotFinite,     // a channel is NaN
-  kNegative,      // a channel has been made negative
+  kInvalid,    // the format's mark of 'not measured': -1, or in a CSV no row at all
+  kNotFinite,  // a channel is NaN
+  kNegative,   // a channel has been made negative
 };
 
 // What a file holds, before it is written.

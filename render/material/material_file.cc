@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
-#include <nlohmann/json.hpp>
 #include <span>
 #include <stdexcept>
 #include <vector>
+#include <nlohmann/json.hpp>
 
 #include "render/files/files.h"
 #include "render/material/parameters.h"
@@ -136,9 +136,11 @@ class Reader {
     if (place_ == Place::kParameters) {
       for (const Given& given : given_)
         if (given.name == value)
-          refuse(line(), "/parameters/" + plain(value) + " is given twice (first in line " + std::to_string(given.line) + ")");
+          refuse(line(),
+                 "/parameters/" + plain(value) + " is given twice (first in line " + std::to_string(given.line) + ")");
       if (given_.size() == kMostParameters)
-        refuse(line(), "/parameters has more than " + std::to_string(kMostParameters) + " entries; no model has as many");
+        refuse(line(),
+               "/parameters has more than " + std::to_string(kMostParameters) + " entries; no model has as many");
       given_.push_back({value, line(), {}, false});
       return true;
     }
@@ -174,7 +176,9 @@ class Reader {
   static constexpr std::size_t kMostChannels = 64;
 
   // Of the token last read: the parser may stand one character behind it, never two.
-  std::size_t line() const { return 1 + static_cast<std::size_t>(std::count(begin_, std::max(begin_, seen_ - 1), '\n')); }
+  std::size_t line() const {
+    return 1 + static_cast<std::size_t>(std::count(begin_, std::max(begin_, seen_ - 1), '\n'));
+  }
 
   [[noreturn]] void refuse(std::size_t at, const std::string& text) const {
     throw files::InputError(source_ + ":" + std::to_string(at) + ": " + text);
@@ -185,13 +189,17 @@ class Reader {
   }
 
   bool unexpected(const std::string& what) const {
-    if (place_ == Place::kOutside) refuse(line(), "the file is " + what + "; expected an object: {\"format\": \"likeness material\", ...");
+    if (place_ == Place::kOutside)
+      refuse(line(), "the file is " + what + "; expected an object: {\"format\": \"likeness material\", ...");
     if (place_ == Place::kTop)
       refuse(line(), "/" + key_ + " is " + what + "; expected " +
-                         (key_ == "version" ? "a whole number" : key_ == "parameters" ? "an object" : "a text"));
+                         (key_ == "version"      ? "a whole number"
+                          : key_ == "parameters" ? "an object"
+                                                 : "a text"));
     refuse(line(), "/parameters/" + plain(given_.back().name) +
-                       (place_ == Place::kChannels ? "/" + std::to_string(given_.back().channels.size()) : "") + " is " +
-                       what + "; expected a number" + (place_ == Place::kChannels ? "" : " or a list of three"));
+                       (place_ == Place::kChannels ? "/" + std::to_string(given_.back().channels.size()) : "") +
+                       " is " + what + "; expected a number" +
+                       (place_ == Place::kChannels ? "" : " or a list of three"));
   }
 
   bool number(double value) {
@@ -199,9 +207,11 @@ class Reader {
       if (value != kVersion) refuse(line(), "/version = " + number_text(value) + "; this program reads version 1");
       return true;
     }
-    if (place_ != Place::kParameters && place_ != Place::kChannels) return unexpected("the number " + number_text(value));
+    if (place_ != Place::kParameters && place_ != Place::kChannels)
+      return unexpected("the number " + number_text(value));
     if (given_.back().channels.size() == kMostChannels)
-      refuse(line(), "/parameters/" + plain(given_.back().name) + " has more than " + std::to_string(kMostChannels) + " numbers");
+      refuse(line(), "/parameters/" + plain(given_.back().name) + " has more than " + std::to_string(kMostChannels) +
+                         " numbers");
     given_.back().channels.push_back(value);
     return true;
   }

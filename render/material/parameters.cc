@@ -86,14 +86,16 @@ std::string assign(brdf::AnyBrdf& brdf, std::string_view name, std::span<const d
 
 std::string complaint(const brdf::AnyBrdf& brdf) {
   for (const Entry& entry : entries(brdf)) {
-    const std::string wrong = misfit(entry.row, std::span(entry.value).first(static_cast<std::size_t>(entry.row.channels)));
+    const std::string wrong =
+        misfit(entry.row, std::span(entry.value).first(static_cast<std::size_t>(entry.row.channels)));
     if (!wrong.empty()) return wrong;
   }
   return "";
 }
 
 std::string no_such_model(std::string_view name) {
-  return "no model " + in_quotes(name) + did_you_mean(name, brdf::kModelNames) + " (models: " + list_of(brdf::kModelNames) + ")";
+  return "no model " + in_quotes(name) + did_you_mean(name, brdf::kModelNames) +
+         " (models: " + list_of(brdf::kModelNames) + ")";
 }
 
 std::string number_text(double value) {

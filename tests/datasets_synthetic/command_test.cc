@@ -4,11 +4,11 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <iostream>
-#include <nlohmann/json.hpp>
 #include <sstream>
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
 
 #include "brdf/any_brdf.h"
 #include "datasets_synthetic/faults.h"
@@ -61,7 +61,8 @@ class MakeMaterial : public testing::Test {
 
   std::string bytes(const std::string& file) { return files::read_whole(folder_ / file, 100 << 20); }
 
-  const std::filesystem::path folder_ = std::filesystem::temp_directory_path() / ("likeness_make_material_test_" + std::to_string(getpid()));
+  const std::filesystem::path folder_ =
+      std::filesystem::temp_directory_path() / ("likeness_make_material_test_" + std::to_string(getpid()));
 };
 
 TEST_F(MakeMaterial, HelpNamesEveryModelAndFault) {
@@ -87,8 +88,9 @@ TEST_F(MakeMaterial, ListHasEveryRowOfTheModelsTable) {
 }
 
 TEST_F(MakeMaterial, SetsParametersAndGreyStandsForThreeChannels) {
-  const Json made = Json::parse(run("--set roughness=0.3 --set base_color=0.5,0.2,0.1 --set diffuse_fresnel_tint=0.7 "
-                                    "--theta-bins 4 --phi-bins 4 --out FOLDER/red.csv --json"));
+  const Json made =
+      Json::parse(run("--set roughness=0.3 --set base_color=0.5,0.2,0.1 --set diffuse_fresnel_tint=0.7 "
+                      "--theta-bins 4 --phi-bins 4 --out FOLDER/red.csv --json"));
   const Json& parameters = made[0]["parameters"];
   EXPECT_EQ(parameters["roughness"], 0.3);
   EXPECT_EQ(parameters["base_color"], Json({0.5, 0.2, 0.1}));
@@ -116,8 +118,9 @@ TEST_F(MakeMaterial, AFolderGetsOneFileASeed) {
 
 TEST_F(MakeMaterial, StartsFromAMaterialFileAndSetComesAfter) {
   run("--model ggx --set roughness=0.7 --set f0=0.9,0.8,0.3 --theta-bins 3 --phi-bins 3 --out FOLDER/gold.csv");
-  const Json made = Json::parse(run("--from FOLDER/gold.material.json --set roughness=0.2 --theta-bins 3 --phi-bins 3 "
-                                    "--out FOLDER/sharp.csv --json"));
+  const Json made =
+      Json::parse(run("--from FOLDER/gold.material.json --set roughness=0.2 --theta-bins 3 --phi-bins 3 "
+                      "--out FOLDER/sharp.csv --json"));
   EXPECT_EQ(made[0]["model"], "ggx");
   EXPECT_EQ(made[0]["parameters"]["f0"], Json({0.9, 0.8, 0.3}));
   EXPECT_EQ(made[0]["parameters"]["roughness"], 0.2);
@@ -126,8 +129,10 @@ TEST_F(MakeMaterial, StartsFromAMaterialFileAndSetComesAfter) {
 TEST_F(MakeMaterial, BadArgumentsSayWhatIsAllowed) {
   const std::string out = " --out FOLDER/x.csv";
   EXPECT_EQ(refusal("--set rougness=1" + out),
-            "likeness make material: --set \"rougness\" is not a parameter of model \"callisto\"; did you mean \"roughness\"?");
-  EXPECT_THAT(refusal("--set roughness=1.2" + out), HasSubstr("--set roughness = 1.2 is outside [0, 1] (of the sharper"));
+            "likeness make material: --set \"rougness\" is not a parameter of model \"callisto\"; did you mean "
+            "\"roughness\"?");
+  EXPECT_THAT(refusal("--set roughness=1.2" + out),
+              HasSubstr("--set roughness = 1.2 is outside [0, 1] (of the sharper"));
   EXPECT_THAT(refusal("--set roughness" + out), HasSubstr("--set \"roughness\" has no '='; write"));
   EXPECT_THAT(refusal("--set roughness=" + out), HasSubstr("\"\" is not a number"));
   EXPECT_THAT(refusal("--set roughness=0.3x" + out), HasSubstr("\"0.3x\" is not a number"));

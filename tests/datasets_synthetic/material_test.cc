@@ -9,8 +9,8 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <numbers>
+#include <nlohmann/json.hpp>
 
 #include "datasets_synthetic/random.h"
 #include "fit/measured/mbsdf.h"
@@ -78,9 +78,9 @@ TEST(Random, NormalHasMeanZeroAndDeviationOne) {
     squares += x * x;
     fourth += x * x * x * x;
   }
-  EXPECT_NEAR(sum / kDraws, 0, 4 / std::sqrt(kDraws));                   // 4 sigma of a mean
-  EXPECT_NEAR(squares / kDraws, 1, 4 * std::sqrt(2.0 / kDraws));         // of a variance
-  EXPECT_NEAR(fourth / kDraws, 3, 4 * std::sqrt(96.0 / kDraws));         // of the fourth moment: E x^8 - 9 = 96
+  EXPECT_NEAR(sum / kDraws, 0, 4 / std::sqrt(kDraws));            // 4 sigma of a mean
+  EXPECT_NEAR(squares / kDraws, 1, 4 * std::sqrt(2.0 / kDraws));  // of a variance
+  EXPECT_NEAR(fourth / kDraws, 3, 4 * std::sqrt(96.0 / kDraws));  // of the fourth moment: E x^8 - 9 = 96
 }
 
 TEST(Faults, NoneLeaveTheTableAsItWas) {
@@ -127,8 +127,8 @@ TEST(Faults, NoiseHasTheDeviationThatWasAskedFor) {
       squares += relative * relative;
     }
   const double n = 3 * kSamples;
-  EXPECT_NEAR(sum / n, 0, 4 * 0.1 / std::sqrt(n));                        // 4 sigma of a mean
-  EXPECT_NEAR(std::sqrt(squares / n), 0.1, 4 * 0.1 / std::sqrt(2 * n));   // of a deviation
+  EXPECT_NEAR(sum / n, 0, 4 * 0.1 / std::sqrt(n));                       // 4 sigma of a mean
+  EXPECT_NEAR(std::sqrt(squares / n), 0.1, 4 * 0.1 / std::sqrt(2 * n));  // of a deviation
   EXPECT_EQ(made.counts.noise, kSamples);
 }
 
@@ -246,7 +246,8 @@ TEST(Material, DrawnParametersAreUsualAndBelongToTheSeed) {
 }
 
 TEST(Material, ManifestAndMaterialFileAgreeWithTheFile) {
-  const auto folder = std::filesystem::temp_directory_path() / ("likeness_synthetic_material_test_" + std::to_string(getpid()));
+  const auto folder =
+      std::filesystem::temp_directory_path() / ("likeness_synthetic_material_test_" + std::to_string(getpid()));
   std::filesystem::remove_all(folder);
   Material m = plain();
   m.brdf = drawn(m.brdf, 5);
@@ -274,13 +275,13 @@ TEST(Material, ManifestAndMaterialFileAgreeWithTheFile) {
     EXPECT_EQ(wanted[i].row.channels == 3 ? said[2].get<double>() : said.get<double>(),
               wanted[i].value[wanted[i].row.channels == 3 ? 2 : 0]);
   }
-  for (const FaultRow& row : kFaults)
-    EXPECT_THAT(manifest.dump(), HasSubstr("\"" + std::string(row.name) + "\":"));
+  for (const FaultRow& row : kFaults) EXPECT_THAT(manifest.dump(), HasSubstr("\"" + std::string(row.name) + "\":"));
   std::filesystem::remove_all(folder);
 }
 
 TEST(Material, ReplacesItsOwnFilesAndNoOthers) {
-  const auto folder = std::filesystem::temp_directory_path() / ("likeness_synthetic_overwrite_test_" + std::to_string(getpid()));
+  const auto folder =
+      std::filesystem::temp_directory_path() / ("likeness_synthetic_overwrite_test_" + std::to_string(getpid()));
   std::filesystem::remove_all(folder);
   const Material m = plain();
   write(m, folder / "a.mbsdf");

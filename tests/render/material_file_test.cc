@@ -49,7 +49,8 @@ std::string refusal(const std::string& text) {
 }
 
 std::string with_parameters(const std::string& parameters) {
-  return "{\"format\": \"likeness material\", \"version\": 1, \"model\": \"callisto\",\n\"parameters\": {\n" + parameters + "}}";
+  return "{\"format\": \"likeness material\", \"version\": 1, \"model\": \"callisto\",\n\"parameters\": {\n" +
+         parameters + "}}";
 }
 
 TEST(MaterialFile, EveryModelComesBackBitForBit) {
@@ -61,7 +62,8 @@ TEST(MaterialFile, EveryModelComesBackBitForBit) {
     const auto a = entries(written.brdf), b = entries(read.brdf);
     for (std::size_t i = 0; i < a.size(); ++i)
       for (int c = 0; c < a[i].row.channels; ++c)
-        EXPECT_EQ(std::bit_cast<std::uint64_t>(a[i].value[c]), std::bit_cast<std::uint64_t>(b[i].value[c])) << a[i].row.name;
+        EXPECT_EQ(std::bit_cast<std::uint64_t>(a[i].value[c]), std::bit_cast<std::uint64_t>(b[i].value[c]))
+            << a[i].row.name;
   }
 }
 
@@ -129,21 +131,25 @@ TEST(MaterialFile, UnknownNamesGetTheNearest) {
   EXPECT_THAT(refusal(with_parameters("\"rougness\": 0.1")), StartsWith("gold.material.json:3: /parameters/"));
   EXPECT_THAT(refusal(R"({"format": "likeness material", "version": 1, "model": "calisto"})"),
               HasSubstr("/model: no model \"calisto\"; did you mean \"callisto\"?"));
-  EXPECT_THAT(refusal(R"({"modl": "callisto"})"), HasSubstr("/modl is not a key of a material file; did you mean \"model\"?"));
+  EXPECT_THAT(refusal(R"({"modl": "callisto"})"),
+              HasSubstr("/modl is not a key of a material file; did you mean \"model\"?"));
   EXPECT_THAT(refusal(with_parameters("\"zzzzzzzzzzzz\": 0.1")), HasSubstr("it has: base_color, metallic"));
 }
 
 TEST(MaterialFile, WrongTypesSayWhatWasFoundAndExpected) {
-  EXPECT_THAT(refusal(with_parameters("\"roughness\": null")), HasSubstr("/parameters/roughness is null; expected a number"));
+  EXPECT_THAT(refusal(with_parameters("\"roughness\": null")),
+              HasSubstr("/parameters/roughness is null; expected a number"));
   EXPECT_THAT(refusal(with_parameters("\"roughness\": \"0.3\"")), HasSubstr("is the text \"0.3\"; expected a number"));
   EXPECT_THAT(refusal(with_parameters("\"roughness\": true")), HasSubstr("is true; expected"));
   EXPECT_THAT(refusal(with_parameters("\"roughness\": {}")), HasSubstr("is an object; expected"));
   EXPECT_THAT(refusal(with_parameters("\"roughness\": [0.5]")), HasSubstr("list of one number"));
   EXPECT_THAT(refusal(with_parameters("\"roughness\": [0.5, 0.5]")), HasSubstr("has 2 numbers; it takes 1"));
-  EXPECT_THAT(refusal(with_parameters("\"base_color\": [0.5, 0.5]")), HasSubstr("has 2 numbers; it takes 3: red, green, blue"));
+  EXPECT_THAT(refusal(with_parameters("\"base_color\": [0.5, 0.5]")),
+              HasSubstr("has 2 numbers; it takes 3: red, green, blue"));
   EXPECT_THAT(refusal(with_parameters("\"base_color\": []")), HasSubstr("has 0 numbers; it takes 3"));
   EXPECT_THAT(refusal(with_parameters("\"base_color\": 0.5")), HasSubstr("has 1 number; it takes 3"));
-  EXPECT_THAT(refusal(with_parameters("\"base_color\": [0.5, null, 0.5]")), HasSubstr("/parameters/base_color/1 is null"));
+  EXPECT_THAT(refusal(with_parameters("\"base_color\": [0.5, null, 0.5]")),
+              HasSubstr("/parameters/base_color/1 is null"));
   EXPECT_THAT(refusal(with_parameters("\"base_color\": [[0.5]]")), HasSubstr("/parameters/base_color/0 is a list"));
   EXPECT_THAT(refusal(R"({"version": "1"})"), HasSubstr("/version is the text \"1\"; expected a whole number"));
   EXPECT_THAT(refusal(R"({"parameters": [1]})"), HasSubstr("/parameters is a list; expected an object"));
@@ -172,7 +178,8 @@ TEST(MaterialFile, TextThatIsNotJsonIsRefusedWithItsLine) {
   EXPECT_THAT(refusal(with_parameters("\"roughness\": 1e999")), HasSubstr("number overflow"));
   EXPECT_THAT(refusal(with_parameters("\"roughness\": 0.1") + "}"), HasSubstr("not JSON"));
   EXPECT_THAT(refusal(with_parameters("\"rough\xff\": 0.1")), HasSubstr("not JSON"));
-  EXPECT_THAT(refusal(std::string(100'000, '[')), HasSubstr("expected an object"));  // no recursion, no stack to exhaust
+  EXPECT_THAT(refusal(std::string(100'000, '[')),
+              HasSubstr("expected an object"));  // no recursion, no stack to exhaust
 }
 
 TEST(MaterialFile, EveryPrefixOfAGoodFileIsRefused) {
@@ -200,7 +207,8 @@ TEST(MaterialFile, RefusesToWriteWhatItCouldNotRead) {
 }
 
 TEST(MaterialFile, GoesThroughTheDisk) {
-  const auto file = std::filesystem::temp_directory_path() / ("likeness_material_file_test_" + std::to_string(getpid())) / "m.material.json";
+  const auto file = std::filesystem::temp_directory_path() /
+                    ("likeness_material_file_test_" + std::to_string(getpid())) / "m.material.json";
   write_material(file, {"m", awkward_model("callisto")});
   EXPECT_EQ(text_of(read_material(file)), text_of({"m", awkward_model("callisto")}));
   std::ofstream(file, std::ios::binary) << std::string(kLargestFile + 1, ' ');
