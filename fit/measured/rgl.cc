@@ -18,7 +18,7 @@ constexpr double kPi = std::numbers::pi;
 constexpr std::uint64_t kMostTheta = 64, kLargestMap = 512;
 constexpr double kHorizon = 1e-6;  // cosine at and below which a direction is on the horizon
 constexpr int kPoints = 3;         // a side and node, of the grid in s that solid angles are summed over
-constexpr int kGrid = 192;         // a side, of the one in u
+constexpr int kPointsU = 6;        // the same of the one in u
 
 double elevation(const Direction& d) { return std::atan2(std::sqrt(d.x * d.x + d.y * d.y), d.z); }
 double unit_of_theta(double theta) { return std::sqrt(theta * 2 / kPi); }
@@ -192,7 +192,8 @@ class Rgl final : public Material {
   std::vector<double> solid_angles(int t, const std::vector<bool>& above) const {
     const int width = colors_[0].width(), height = colors_[0].height();
     const int across = kPoints * width, up = kPoints * height;
-    const double in_u = double(kGrid) * kGrid, in_s = double(across) * up;
+    const int across_u = kPointsU * width, up_u = kPointsU * height;
+    const double in_u = double(across_u) * up_u, in_s = double(across) * up;
     std::vector<double> sums(std::size_t(width) * height);
     const auto add = [&](const Point2& u, const Point2& s, double density) {
       const Pair pair = pair_at(t, u);
@@ -209,9 +210,9 @@ class Rgl final : public Material {
         const Point2 u = warps_[t].sample(s, density);
         add(u, s, density);
       }
-    for (int i = 0; i < kGrid; ++i)
-      for (int j = 0; j < kGrid; ++j) {
-        const Point2 u{(j + 0.5) / kGrid, (i + 0.5) / kGrid};
+    for (int i = 0; i < up_u; ++i)
+      for (int j = 0; j < across_u; ++j) {
+        const Point2 u{(j + 0.5) / across_u, (i + 0.5) / up_u};
         const Warp::Cumulated there = warps_[t].cumulated(u);
         add(u, there.place(), warps_[t].density(u));
       }

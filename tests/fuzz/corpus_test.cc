@@ -1,0 +1,64 @@
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <random>
+#include <vector>
+
+#include "render/files/files.h"
+#include "tests/fit/measured_files.h"
+#include "tests/fuzz/feed.h"
+
+// What the fuzzers run, without libFuzzer: every file of the corpus, and damaged copies of small valid files.
+namespace likeness::measured::test {
+namespace {
+
+struct Seed {
+  std::string format, bytes;
+};
+
+std::vector<Seed> seeds() {
+  return {{"merl", small_merl()}, {"mbsdf", small_mbsdf()}, {"rgl", small_rgl()}, {"csv", small_csv()}};
+}
+
+TEST(Corpus, EveryFileIsReadOrRefused) {
+  int files = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(LIKENESS_CORPUS_DIR)) {
+    if (!entry.is_regular_file()) continue;
+    SCOPED_TRACE(entry.path().string());
+    EXPECT_NO_THROW(feed(entry.path().parent_path().filename().string(), likeness::files::read_whole(entry.path(), 1 << 20)));
+    ++files;
+  }
+  EXPECT_GE(files, 8);
+}
+
+TEST(Corpus, ValidSeedsAreAccepted) {
+  for (const auto& [format, bytes] : seeds()) EXPECT_TRUE(feed(format, bytes)) << format;
+}
+
+TEST(Corpus, EveryTruncationIsReadOrRefused) {
+  for (const auto& [format, bytes] : seeds())
+    for (std::size_t size = 0; size < bytes.size(); ++size)
+      ASSERT_NO_THROW(feed(format, std::string_view(bytes).substr(0, size))) << format << ", " << size << " bytes";
+}
+
+TEST(Corpus, EveryFlippedBitOfTheFirstKilobyteIsReadOrRefused) {
+  for (const auto& [format, bytes] : seeds())
+    for (std::size_t bit = 0; bit < 8 * std::min<std::size_t>(bytes.size(), 1024); ++bit) {
+      std::string damaged = bytes;
+      damaged[bit / 8] = char(damaged[bit / 8] ^ 1 << bit % 8);
+      ASSERT_NO_THROW(feed(format, damaged)) << format << ", bit " << bit;
+    }
+}
+
+TEST(Corpus, RandomDamageIsReadOrRefused) {
+  std::mt19937 random(7);
+  for (const auto& [format, bytes] : seeds())
+    for (int i = 0; i < 500; ++i) {
+      std::string damaged = bytes;
+      for (unsigned n = 1 + random() % 8; n > 0; --n) damaged[random() % damaged.size()] = char(random());
+      ASSERT_NO_THROW(feed(format, damaged)) << format << ", copy " << i;
+    }
+}
+
+}  // namespace
+}  // namespace likeness::measured::test

@@ -1,0 +1,63 @@
+#include "tests/fuzz/feed.h"
+
+#include <cmath>
+#include <memory>
+#include <stdexcept>
+
+#include "fit/measured/csv.h"
+#include "fit/measured/mbsdf.h"
+#include "fit/measured/rgl.h"
+#include "render/files/files.h"
+#include "tests/fit/measured_files.h"
+
+namespace likeness::measured::test {
+namespace {
+
+void hold(bool promise, const char* text) {
+  if (!promise) throw std::logic_error(text);
+}
+
+std::unique_ptr<Material> parsed(std::string_view format, std::string_view bytes) {
+  if (format == "merl") return parse_merl(std::string(bytes), "fuzz", kSmallMerl);
+  if (format == "mbsdf") return parse_mbsdf(bytes, "fuzz");
+  if (format == "rgl") return parse_rgl(bytes, "fuzz");
+  return parse_csv(bytes, "fuzz");
+}
+
+bool usable(const Rgb& f) { return f.r >= 0 && f.g >= 0 && f.b >= 0 && std::isfinite(f.r + f.g + f.b); }
+
+}  // namespace
+
+bool feed(std::string_view format, std::string_view bytes) {
+  std::unique_ptr<Material> material;
+  try {
+    material = parsed(format, bytes);
+  } catch (const files::InputError& error) {
+    const std::string_view message = error.what();
+    hold(message.starts_with("fuzz"), "a message names the file");
+    hold(message.find('\n') == message.npos, "a message is one line");
+    return false;
+  }
+  const Coverage c = material->coverage();
+  hold(c.valid > 0, "an accepted material has valid samples");
+  hold(c.valid + c.negative + c.not_finite + c.padding + c.repeats == c.stored, "every sample is counted once");
+  int left = 2000;
+  material->for_each_sample([&](const Sample& s) {
+    if (left-- <= 0) return;
+    hold(usable(s.f), "a sample is finite and not negative");
+    hold(s.weight > 0 && s.to_light.z > 0 && s.to_view.z > 0, "a sample is above the horizon and has a weight");
+    Rgb f;
+    if (material->evaluate(s.to_light, s.to_view, f)) hold(usable(f), "a value is finite and not negative");
+  });
+  for (const double theta : {0.0, 1e-9, 0.5, 1.57079})
+    for (const double phi : {0.0, 1.0, 3.1415926535}) {
+      Direction l, v;
+      directions_at({theta, 1.0, phi}, l, v);
+      Rgb f;
+      if (material->evaluate(l, v, f)) hold(usable(f), "a value is finite and not negative");
+      if (material->evaluate(v, l, f)) hold(usable(f), "a value is finite and not negative");
+    }
+  return true;
+}
+
+}  // namespace likeness::measured::test

@@ -1,0 +1,25 @@
+#!/bin/sh
+# run.sh [SECONDS]: builds the four fuzzers of the readers with clang and runs each for a quarter of SECONDS (60).
+# New inputs stay in the build folder; a crash ends the run and leaves its input there, to be added to corpus/.
+set -eu
+seconds=${1:-60}
+here=$(cd "$(dirname "$0")" && pwd)
+build=${LIKENESS_FUZZ_BUILD:-"$here/../../build/fuzz"}
+clang=$(command -v clang++-19 || command -v clang++) || {
+  echo "run.sh: no clang++-19; install clang-19 and libclang-rt-19-dev" >&2
+  exit 2
+}
+cmake -S "$here/standalone" -B "$build" -G Ninja -DCMAKE_CXX_COMPILER="$clang" -DCMAKE_BUILD_TYPE=RelWithDebInfo >"$build.log" 2>&1 ||
+  { cat "$build.log" >&2; exit 1; }
+cmake --build "$build" -j 2
+cd "$build"
+for format in merl mbsdf rgl csv; do
+  mkdir -p "found/$format"
+  echo "$format: $((seconds / 4)) s"
+  "./tests/fuzz/${format}_fuzz" -max_total_time=$((seconds / 4)) -max_len=8192 -timeout=10 -rss_limit_mb=1024 \
+    -print_final_stats=1 -verbosity=0 "found/$format" "$here/corpus/$format" 2>&1 | grep -E "ERROR|SUMMARY|stat::number|Test unit|logic" || true
+  if ls crash-* timeout-* oom-* >/dev/null 2>&1; then
+    echo "run.sh: $format failed on $build/$(ls crash-* timeout-* oom-* 2>/dev/null | head -1)" >&2
+    exit 1
+  fi
+done
