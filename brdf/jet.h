@@ -41,7 +41,7 @@ struct Arithmetic<ceres::Jet<T, N>> {
 
  private:
   static Jet with_slope(Jet raised, const T& e, const Jet& x) {
-    const auto usable = x.a > T(kTiny<Jet>);
+    const auto usable = x.a > constant<T>(kTiny<Jet>);
     const T slope = brdf::pick(usable, T(e * raised.a / brdf::pick(usable, x.a, T(1))), T(0));
     raised.v += slope * x.v;
     return raised;
