@@ -21,7 +21,7 @@ extern "C" __attribute__((visibility("default"))) int likeness_encode_png_1(cons
     }
     OIIO::ImageSpec spec(width, height, 3, OIIO::TypeDesc::UINT8);
     spec.attribute("oiio:ColorSpace", "sRGB");
-    spec.attribute("png:compressionLevel", 3);  // smooth 8-bit pictures: as small as level 6 within 3 %, twice as fast
+    spec.attribute("png:compressionLevel", 3);  // against 6, a report grows by 9 % and takes a quarter less time
     std::vector<unsigned char> bytes;
     OIIO::Filesystem::IOVecOutput memory(bytes);
     if (!out->set_ioproxy(&memory) || !out->open("picture.png", spec) ||

@@ -11,7 +11,7 @@
 // likeness_image_io.so, which the first PNG loads. The module is searched in, and nowhere else:
 //   1. the folder in the environment variable LIKENESS_MODULES, if that is set;
 //   2. lib/likeness in the program's folder and the three above it: PREFIX/lib/likeness of an installed
-//      PREFIX/bin/likeness, or that of the build folder.
+//      PREFIX/bin/likeness, or that of the build folder; the module must have the program's owner, or root.
 namespace likeness::image {
 
 // A PNG in memory: 8 bit, RGB, tagged sRGB.

@@ -1,4 +1,5 @@
 #include <dlfcn.h>
+#include <sys/stat.h>
 
 #include <array>
 #include <cstdlib>
@@ -14,9 +15,22 @@
 namespace likeness::image {
 namespace {
 
+// Whether a module that was found near the program, not named by the user, is one that the program's own owner (or
+// root) put there: above the program's folder may lie one that anybody can write to.
+bool has_owner_of_program(const std::filesystem::path& file) {
+  struct stat program{}, module{};
+  return stat("/proc/self/exe", &program) == 0 && stat(file.c_str(), &module) == 0 &&
+         (module.st_uid == program.st_uid || module.st_uid == 0);
+}
+
+std::filesystem::path named_folder() {
+  const char* const named = std::getenv("LIKENESS_MODULES");
+  return named ? named : "";
+}
+
 std::vector<std::filesystem::path> module_folders() {
   std::vector<std::filesystem::path> folders;
-  if (const char* named = std::getenv("LIKENESS_MODULES"); named && *named) folders.emplace_back(named);
+  if (!named_folder().empty()) folders.push_back(named_folder());
   std::error_code error;
   std::filesystem::path folder = std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
   for (int level = 0; level < 4 && folder.has_relative_path(); ++level, folder = folder.parent_path())
@@ -29,11 +43,10 @@ likeness_encode_png_function load() {
   for (const std::filesystem::path& folder : module_folders()) {
     const std::filesystem::path file = folder / kIoModuleFile;
     std::error_code error;
-    if (!std::filesystem::exists(file, error)) {
+    if (!std::filesystem::exists(file, error) || (folder != named_folder() && !has_owner_of_program(file))) {
       tried += (tried.empty() ? "" : ", ") + folder.string();
       continue;
     }
-    // RTLD_LAZY: its libraries have 153 thousand relocations and PNG needs few of them.
     void* const module = dlopen(file.c_str(), RTLD_LAZY | RTLD_LOCAL);
     if (!module) {
       const char* const cause = dlerror();
