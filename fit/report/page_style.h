@@ -37,6 +37,7 @@ svg text{fill:var(--ink);font-family:inherit}
 table{border-collapse:collapse;font-size:.92rem;width:100%}
 th,td{padding:6px 10px;text-align:left;vertical-align:top;border-top:1px solid var(--line);overflow-wrap:normal}
 thead th{border-top:0;background:var(--soft);vertical-align:bottom}
+.metrics thead th{min-width:7.5rem}
 tbody th{font-weight:600;min-width:11rem}
 tbody th small{display:block;font-weight:400}
 td.n{white-space:pre;font-variant-numeric:tabular-nums}

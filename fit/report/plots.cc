@@ -66,7 +66,7 @@ std::string drawing(std::string_view box, std::string_view title, std::string_vi
 // A frame with a logarithmic axis up, for losses.
 class LossAxes {
  public:
-  static constexpr double kX0 = 62, kX1 = 392, kY0 = 12, kY1 = 200;
+  static constexpr double kX0 = 62, kX1 = 392, kY0 = 24, kY1 = 200;
 
   explicit LossAxes(const std::vector<double>& losses) {
     low_ = 1e300, high_ = 0;
@@ -81,7 +81,7 @@ class LossAxes {
   double y(double loss) const { return kY1 - (std::log10(loss) - low_) / (high_ - low_) * (kY1 - kY0); }
 
   std::string frame(std::string_view across, double first, double last) const {
-    std::string out = "<rect x=\"62\" y=\"12\" width=\"330\" height=\"188\" fill=\"none\" stroke=\"#999\"/>";
+    std::string out = "<rect x=\"62\" y=\"24\" width=\"330\" height=\"176\" fill=\"none\" stroke=\"#999\"/>";
     std::vector<double> ticks;
     const bool decades = high_ - low_ > 2;
     for (int e = static_cast<int>(std::floor(low_)); e <= static_cast<int>(std::ceil(high_)); ++e)
@@ -93,11 +93,11 @@ class LossAxes {
     if (highest_ / lowest_ < 1.0001) ticks = {lowest_};
     for (const double tick : ticks) {
       out += line(kX0, y(tick), kX1, y(tick), "stroke=\"#ddd\"");
-      out += text(kX0 - 5, y(tick) + 4, "end", number(tick, highest_ / lowest_ < 1.2 ? 5 : 2), 12);
+      out += text(kX0 - 5, y(tick) + 4, "end", highest_ / lowest_ < 1.2 ? number(tick, 5) : plain(tick), 12);
     }
     out += text(kX0, kY1 + 17, "middle", plain(first), 12) + text(kX1, kY1 + 17, "end", plain(last), 12);
     out += text((kX0 + kX1) / 2, kY1 + 34, "middle", across, 12);
-    out += text(13, (kY0 + kY1) / 2, "middle", "loss (log scale)", 12, " transform=\"rotate(-90 13 106)\"");
+    out += text(kX0, kY0 - 8, "start", "loss (log scale)", 12);
     return out;
   }
 

@@ -182,7 +182,8 @@ std::vector<const Candidate*> candidates_of(const Result& result) {
 std::string metrics_table(const Result& result) {
   const std::vector<const Candidate*> candidates = candidates_of(result);
   std::string out =
-      "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"Metrics\"><table>\n<thead><tr><th "
+      "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"Metrics\"><table "
+      "class=\"metrics\">\n<thead><tr><th "
       "scope=\"col\">Metric</th>";
   for (const Candidate* candidate : candidates)
     out += "<th scope=\"col\">" + escape(candidate->label) +
