@@ -38,12 +38,14 @@ S burley_at_grazing(const S& roughness, const T& cos_d) {
 template <Scalar S>
 struct BurleyDiffuse {
   static constexpr std::string_view kName = "burley_diffuse";
+  // clang-format off
   static constexpr std::array kParameters{
       Parameter{.name = "base_color", .initial = 0.5, .range = {0, 1}, .typical = {0.02, 0.9},
                 .role = Role::kScale, .channels = 3, .text = "rho: reflectance scale, linear RGB"},
       Parameter{.name = "roughness", .initial = 0.5, .range = {0, 1}, .typical = {0.05, 0.95},
                 .text = "0 darkens towards grazing angles, 1 brightens towards the light"},
   };
+  // clang-format on
   static constexpr auto members() { return std::tuple{&BurleyDiffuse::base_color, &BurleyDiffuse::roughness}; }
   Rgb<S> base_color{S(kParameters[0].initial)};
   S roughness = S(kParameters[1].initial);

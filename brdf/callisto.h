@@ -29,6 +29,7 @@ namespace likeness::brdf {
 template <Scalar S>
 struct Callisto {
   static constexpr std::string_view kName = "callisto";
+  // clang-format off
   static constexpr std::array kParameters{
       Parameter{.name = "base_color", .initial = 0.5, .range = {0, 1}, .typical = {0.02, 0.9},
                 .role = Role::kScale, .channels = 3,
@@ -74,14 +75,27 @@ struct Callisto {
       Parameter{.name = "smooth_terminator_length", .initial = 0.5, .range = {0, 1}, .typical = {0.1, 1},
                 .tier = Tier::kFull, .text = "p: cosine of the light's angle at which the terminator's effect ends"},
   };
+  // clang-format on
   static constexpr auto members() {
     using C = Callisto;
-    return std::tuple{&C::base_color, &C::metallic, &C::specular, &C::roughness, &C::diffuse_fresnel,
-                      &C::diffuse_fresnel_falloff, &C::retroreflection, &C::retroreflection_falloff,
-                      &C::smooth_terminator, &C::diffuse_fresnel_tint, &C::retroreflection_tint,
-                      &C::smooth_terminator_tint, &C::specular_fresnel_falloff, &C::dual_specular_roughness_scale,
-                      &C::dual_specular_opacity, &C::diffuse_fresnel_tangent_falloff,
-                      &C::retroreflection_tangent_falloff, &C::smooth_terminator_length};
+    return std::tuple{&C::base_color,
+                      &C::metallic,
+                      &C::specular,
+                      &C::roughness,
+                      &C::diffuse_fresnel,
+                      &C::diffuse_fresnel_falloff,
+                      &C::retroreflection,
+                      &C::retroreflection_falloff,
+                      &C::smooth_terminator,
+                      &C::diffuse_fresnel_tint,
+                      &C::retroreflection_tint,
+                      &C::smooth_terminator_tint,
+                      &C::specular_fresnel_falloff,
+                      &C::dual_specular_roughness_scale,
+                      &C::dual_specular_opacity,
+                      &C::diffuse_fresnel_tangent_falloff,
+                      &C::retroreflection_tangent_falloff,
+                      &C::smooth_terminator_length};
   }
   static consteval double at(std::string_view name) { return initial(kParameters, name); }
 
@@ -120,10 +134,10 @@ struct Callisto {
   Terms<S> terms(const Geometry<T>& g) const {
     const T cos_i = pick(g.above, g.cos_i, T(1)), cos_o = pick(g.above, g.cos_o, T(1));
     Terms<S> t;
-    t.rise = power5(g.versine_d, remap(diffuse_fresnel_falloff)) *
-             power5(g.cos_h, remap(diffuse_fresnel_tangent_falloff));
-    t.retro = power5(g.versine_h, remap(retroreflection_falloff)) *
-              power5(g.cos_d, remap(retroreflection_tangent_falloff));
+    t.rise =
+        power5(g.versine_d, remap(diffuse_fresnel_falloff)) * power5(g.cos_h, remap(diffuse_fresnel_tangent_falloff));
+    t.retro =
+        power5(g.versine_h, remap(retroreflection_falloff)) * power5(g.cos_d, remap(retroreflection_tangent_falloff));
 
     // 1 - alpha_s (1 - smoothstep(0, end, cos_i)), where alpha_s = (1 - a) (1 - b): written as a sum of positive terms,
     // which keeps its digits where it vanishes, and so that end = 0 is a step and not 0 / 0.

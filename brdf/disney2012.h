@@ -65,6 +65,7 @@ S ggx_masking(const S& alpha, const T& c) {
 template <Scalar S>
 struct Disney2012 {
   static constexpr std::string_view kName = "disney2012";
+  // clang-format off
   static constexpr std::array kParameters{
       Parameter{.name = "base_color", .initial = 0.5, .range = {0, 1}, .typical = {0.02, 0.9},
                 .role = Role::kScale, .channels = 3,
@@ -90,10 +91,11 @@ struct Disney2012 {
       Parameter{.name = "clearcoat_gloss", .initial = 1, .range = {0, 1}, .typical = {0, 1},
                 .text = "0 satin (alpha 0.1), 1 gloss (alpha 0.001)"},
   };
+  // clang-format on
   static constexpr auto members() {
     using D = Disney2012;
-    return std::tuple{&D::base_color, &D::subsurface, &D::metallic, &D::specular, &D::specular_tint, &D::roughness,
-                      &D::anisotropic, &D::sheen, &D::sheen_tint, &D::clearcoat, &D::clearcoat_gloss};
+    return std::tuple{&D::base_color,  &D::subsurface, &D::metallic,   &D::specular,  &D::specular_tint,  &D::roughness,
+                      &D::anisotropic, &D::sheen,      &D::sheen_tint, &D::clearcoat, &D::clearcoat_gloss};
   }
   static consteval double at(std::string_view name) { return initial(kParameters, name); }
 
@@ -133,11 +135,11 @@ struct Disney2012 {
     const T coat_fresnel = mix(constant<T>(0.04), T(1), fresnel);
     const T coat_masking = ggx_masking(T(0.25), cos_i) * ggx_masking(T(0.25), cos_o);
     const S coat_alpha = mix(constant<S>(0.1), constant<S>(0.001), clearcoat_gloss);
-    const S coat = S(0.25) * clearcoat * gtr1_distribution(coat_alpha, g.cos_h, g.sin2_h) *
-                   T(coat_fresnel * coat_masking);
+    const S coat =
+        S(0.25) * clearcoat * gtr1_distribution(coat_alpha, g.cos_h, g.sin2_h) * T(coat_fresnel * coat_masking);
 
-    const S luminance = constant<S>(0.3) * base_color.r + constant<S>(0.6) * base_color.g +
-                        constant<S>(0.1) * base_color.b;
+    const S luminance =
+        constant<S>(0.3) * base_color.r + constant<S>(0.6) * base_color.g + constant<S>(0.1) * base_color.b;
     const auto has_hue = greater(luminance, constant<S>(kTiny<S>));
     const S over_luminance = S(1) / pick(has_hue, luminance, S(1));
     const auto channel = [&](const S& rho) {

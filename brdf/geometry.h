@@ -15,9 +15,9 @@ namespace likeness::brdf {
 template <Scalar T>
 struct Geometry {
   Vec3<T> to_light, to_view, half;
-  T cos_i, cos_o;                 // of the light's and the viewer's angle to the normal; may be <= 0
-  T cos_h, sin2_h, versine_h;     // of theta_h: cosine, squared sine, 1 - cosine
-  T cos_d, versine_d;             // of theta_d: cosine, 1 - cosine
+  T cos_i, cos_o;                           // of the light's and the viewer's angle to the normal; may be <= 0
+  T cos_h, sin2_h, versine_h;               // of theta_h: cosine, squared sine, 1 - cosine
+  T cos_d, versine_d;                       // of theta_d: cosine, 1 - cosine
   decltype(greater(T(0.0), T(0.0))) above;  // a mask: both directions are above the horizon
 
   // From directions in this precision.
@@ -40,9 +40,17 @@ struct Geometry {
   template <class U>
     requires std::constructible_from<T, U>
   explicit Geometry(const Geometry<U>& g)
-      : to_light(g.to_light), to_view(g.to_view), half(g.half), cos_i(T(g.cos_i)), cos_o(T(g.cos_o)),
-        cos_h(T(g.cos_h)), sin2_h(T(g.sin2_h)), versine_h(T(g.versine_h)), cos_d(T(g.cos_d)),
-        versine_d(T(g.versine_d)), above(g.above) {}
+      : to_light(g.to_light),
+        to_view(g.to_view),
+        half(g.half),
+        cos_i(T(g.cos_i)),
+        cos_o(T(g.cos_o)),
+        cos_h(T(g.cos_h)),
+        sin2_h(T(g.sin2_h)),
+        versine_h(T(g.versine_h)),
+        cos_d(T(g.cos_d)),
+        versine_d(T(g.versine_d)),
+        above(g.above) {}
 };
 
 // The pair of half-angle coordinates (radians), with the half vector in the x-z plane:

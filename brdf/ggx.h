@@ -53,12 +53,14 @@ T schlick_weight(const T& versine_d) {
 template <Scalar S>
 struct Ggx {
   static constexpr std::string_view kName = "ggx";
+  // clang-format off
   static constexpr std::array kParameters{
       Parameter{.name = "f0", .initial = 0.04, .range = {0, 1}, .typical = {0.02, 0.9},
                 .role = Role::kScale, .channels = 3, .text = "reflectance at normal incidence, linear RGB"},
       Parameter{.name = "roughness", .initial = 0.5, .range = {0, 1}, .typical = {0.05, 0.9},
                 .text = "square root of the slope roughness alpha; alpha is kept above 1e-4"},
   };
+  // clang-format on
   static constexpr auto members() { return std::tuple{&Ggx::f0, &Ggx::roughness}; }
   Rgb<S> f0{constant<S>(kParameters[0].initial)};
   S roughness = S(kParameters[1].initial);  // not braces: they would pick a batch's list of lanes
@@ -67,7 +69,8 @@ struct Ggx {
   Rgb<S> eval(const Geometry<T>& g) const {
     const T cos_i = pick(g.above, g.cos_i, T(1)), cos_o = pick(g.above, g.cos_o, T(1));
     const S alpha = alpha_of_roughness(roughness);
-    const S lobe = pick(g.above, S(ggx_distribution(alpha, g.cos_h, g.sin2_h) * ggx_visibility(alpha, cos_i, cos_o)), S(0));
+    const S lobe =
+        pick(g.above, S(ggx_distribution(alpha, g.cos_h, g.sin2_h) * ggx_visibility(alpha, cos_i, cos_o)), S(0));
     const T rise = schlick_weight(g.versine_d);
     return Rgb<S>{mix(f0.r, S(1), rise), mix(f0.g, S(1), rise), mix(f0.b, S(1), rise)} * lobe;
   }

@@ -16,10 +16,12 @@ namespace likeness::brdf {
 template <Scalar S>
 struct Lambert {
   static constexpr std::string_view kName = "lambert";
+  // clang-format off
   static constexpr std::array kParameters{
       Parameter{.name = "base_color", .initial = 0.5, .range = {0, 1}, .typical = {0.02, 0.9},
                 .role = Role::kScale, .channels = 3, .text = "diffuse albedo rho, linear RGB"},
   };
+  // clang-format on
   static constexpr auto members() { return std::tuple{&Lambert::base_color}; }
   Rgb<S> base_color{S(kParameters[0].initial)};
 

@@ -15,10 +15,10 @@ struct Interval {
 
 // What a parameter does, which decides how a fit treats it.
 enum class Role {
-  kScale,      // a reflectance or an intensity that multiplies a term
-  kTint,       // a color in [0, 1] that multiplies the scale named by `tints`
-  kShape,      // a roughness, a falloff, a length: enters non-linearly
-  kMix,        // a weight between two terms
+  kScale,  // a reflectance or an intensity that multiplies a term
+  kTint,   // a color in [0, 1] that multiplies the scale named by `tints`
+  kShape,  // a roughness, a falloff, a length: enters non-linearly
+  kMix,    // a weight between two terms
 };
 
 // The smallest set of parameters in which this one is exposed (Callisto slides, 'parameters'). A fit of
@@ -30,15 +30,15 @@ inline constexpr std::array<std::string_view, 4> kTierNames{"plain", "base", "ad
 // unit. Bounds of the fit, --help, the material file and the docs are made from it.
 struct Parameter {
   std::string_view name;
-  double initial = 0;        // default, of every channel
-  Interval range;            // what is allowed
-  Interval typical;          // what is usual; starts of a fit are drawn from it
+  double initial = 0;  // default, of every channel
+  Interval range;      // what is allowed
+  Interval typical;    // what is usual; starts of a fit are drawn from it
   std::string_view unit = "1";
   Role role = Role::kShape;
   Tier tier = Tier::kPlain;
-  int channels = 1;          // 3: linear RGB
+  int channels = 1;  // 3: linear RGB
   std::string_view tints = {};
-  std::string_view text;     // one line for help and docs
+  std::string_view text;  // one line for help and docs
 };
 
 void no_such_parameter();  // not constexpr and nowhere defined: what calls it while compiling does not compile

@@ -59,7 +59,7 @@ std::string read_whole(const std::filesystem::path& file, std::size_t limit) {
   const std::string name = file.string();
   const Descriptor in(::open(name.c_str(), O_RDONLY | O_CLOEXEC));
   if (in.number < 0) throw InputError(name + ": cannot be read (" + cause() + "); expected a readable file");
-  struct stat facts {};
+  struct stat facts{};
   if (::fstat(in.number, &facts) != 0) throw InputError(name + ": cannot be read (" + cause() + ")");
   if (S_ISDIR(facts.st_mode)) throw InputError(name + ": is a folder; expected a file");
   const auto too_large = [&](const std::string& found) {
