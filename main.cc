@@ -105,10 +105,10 @@ int main(int argc, char** argv) try {
     return program.exit(help_or_version);
   } catch (const CLI::ParseError& error) {
     return fail(kUsage, usage_message(program, error));
+  } catch (const likeness::files::UsageError& error) {
+    return fail(kUsage, innermost(program).words + ": " + error.what());
   }
   return exit_code;
-} catch (const likeness::files::UsageError& error) {
-  return fail(kUsage, error.what());
 } catch (const likeness::files::InputError& error) {
   return fail(kBadInput, error.what());
 } catch (const std::exception& error) {

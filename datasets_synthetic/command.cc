@@ -25,7 +25,6 @@ using measured::Format;
 
 constexpr std::array<std::string_view, 3> kFormats{"merl", "mbsdf", "csv"};
 constexpr std::array kFormatOf{Format::kMerl, Format::kMbsdf, Format::kCsv};  // in the order of kFormats
-constexpr std::string_view kPlace = "likeness make material: ";
 
 struct MakeOptions {
   std::string model, from, format, out;
@@ -37,7 +36,7 @@ struct MakeOptions {
   Faults faults;
 };
 
-[[noreturn]] void refuse(const std::string& text) { throw UsageError(std::string(kPlace) + text); }
+[[noreturn]] void refuse(const std::string& text) { throw UsageError(text); }
 
 std::string near(std::string_view wanted, std::span<const std::string_view> names) {
   const std::string found = files::nearest_name(wanted, names.data(), names.size());
@@ -169,12 +168,7 @@ void run_make(const MakeOptions& options, std::ostream& out) {
     material.brdf = options.random ? drawn(brdf, material.seed) : brdf;
     for (const std::string& assignment : options.assignments) assign_text(material.brdf, assignment);
     const std::filesystem::path file = file_asked(options, format, material::model_name(brdf), material.seed);
-    std::string manifest;
-    try {
-      manifest = write(material, file);
-    } catch (const UsageError& error) {
-      refuse(error.what());
-    }
+    std::string manifest = write(material, file);
     if (options.json) {
       manifest.pop_back();  // the newline
       out << separator << manifest;

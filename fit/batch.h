@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "fit/report/overview.h"
-#include "fit/result.h"
+#include "fit/result/result.h"
 
 namespace likeness::fit {
 

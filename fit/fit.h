@@ -5,7 +5,7 @@
 
 #include "fit/measured/measured.h"
 #include "fit/interrupted.h"
-#include "fit/result.h"
+#include "fit/result/result.h"
 
 namespace likeness::fit {
 

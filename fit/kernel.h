@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-#include "fit/result.h"
+#include "fit/result/result.h"
 
 // The inner loop of a fit: residuals of one model over many samples, with J^T J and J^T r, in SIMD batches of
 // float or double, for the best instruction set of the machine it runs on.

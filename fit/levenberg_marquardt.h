@@ -4,7 +4,7 @@
 #include <functional>
 #include <vector>
 
-#include "fit/result.h"
+#include "fit/result/result.h"
 
 namespace likeness::fit {
 

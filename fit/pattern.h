@@ -1,6 +1,6 @@
 #pragma once
 
-#include "fit/result.h"
+#include "fit/result/result.h"
 
 namespace likeness::fit {
 

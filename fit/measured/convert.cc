@@ -21,7 +21,7 @@ Format format_to_write(const ConvertOptions& options) {
   const std::string extension = options.out.extension().string();
   if (extension == ".binary") return Format::kMerl;
   if (extension == ".csv") return Format::kCsv;
-  throw files::UsageError("convert: output " + options.out.string() + " has the extension \"" + extension +
+  throw files::UsageError("output " + options.out.string() + " has the extension \"" + extension +
                           "\"; write a name that ends in .binary (MERL) or .csv");
 }
 
@@ -91,7 +91,7 @@ Conversion convert(const ConvertOptions& options) {
   result.to = format_to_write(options);
   std::error_code ignored;
   if (std::filesystem::equivalent(options.in, options.out, ignored))
-    throw files::UsageError("convert: output " + options.out.string() + " is the input; write another name");
+    throw files::UsageError("output " + options.out.string() + " is the input; write another name");
   const std::unique_ptr<Material> source = read(options.in);
   result.in = source->coverage();
   result.from = source->format();

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "fit/measured/measured.h"
-#include "fit/result.h"
+#include "fit/result/result.h"
 
 // The page that a batch ends with: what was fitted, sorted by the pattern of its slice.
 namespace likeness::fit {

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "fit/result.h"
+#include "fit/result/result.h"
 #include "render/image/picture.h"
 
 // The drawings of the report, as inline SVG. Titles are escaped here.

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "fit/measured/measured.h"
-#include "fit/result.h"
+#include "fit/result/result.h"
 
 namespace likeness::fit {
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "fit/result.h"
+#include "fit/result/result.h"
 
 // The tables of the report, as HTML. All strings of the result are escaped here.
 namespace likeness::fit {

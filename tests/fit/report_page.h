@@ -8,7 +8,7 @@
 
 #include "fit/measured/measured.h"
 #include "fit/report/overview.h"
-#include "fit/result.h"
+#include "fit/result/result.h"
 
 // What the tests of the report share: an example to draw, and ways to ask a page what it is.
 namespace likeness::fit {

@@ -128,6 +128,11 @@ TEST(CommandLine, RefusesANumberThatIsNone) {
 TEST(CommandLine, RefusesAModelThatDoesNotExist) {
   expect_refusal("fit gold.binary --model calisto", 2, {"calisto", "callisto"});
 }
+TEST(CommandLine, SaysWhichSubcommandRefusesAnOption) {
+  expect_refusal("fit gold.binary --cut 5", 2, {"likeness fit: --cut 5", "[20, 90]"});
+  expect_refusal("convert a.csv a.exr", 2, {"likeness convert: output", ".binary"});
+  expect_refusal("make material --invalid 2 --out a.binary", 2, {"likeness make material: --invalid = 2", "[0, 1"});
+}
 
 TEST(CommandLine, RefusesAFileThatIsNotThere) {
   expect_refusal("fit no_such.binary", 3, {"no_such.binary"});

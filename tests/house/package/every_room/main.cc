@@ -1,7 +1,7 @@
 #include <iostream>
 
 #include "fit/measured/measured.h"
-#include "fit/result.h"
+#include "fit/result/result.h"
 #include "render/files/files.h"
 
 // Reads a measured material that is not there through the installed libraries: the refusal shows that they link.
