@@ -116,6 +116,7 @@ class Rgl final : public Material {
       const double before = i == 0 ? -1e-6 : theta_[i - 1];
       if (!(theta_[i] > before) || !(theta_[i] < kPi / 2 + 1e-3))
         refuse(source, "theta_i[" + std::to_string(i) + "] = " + std::to_string(theta_[i]), "rising angles from 0 to pi / 2");
+      theta_[i] = std::max(theta_[i], 0.0);  // a rounding below 0 has no square root
     }
   }
 

@@ -77,33 +77,69 @@ TEST(Csv, DoesNotCareForTheOrderOfRows) {
   }
 }
 
-// The tree finds what a search through all samples by rotated directions finds.
-TEST(Csv, FindsTheNearestSampleInTheMetricItStates) {
+// Least root of summed squared chords over the azimuth, by trying azimuths.
+double distance_by_search(const Elevations& a, const Elevations& b) {
+  Direction l, v, l2, v2;
+  directions_at(a, l, v);
+  directions_at(b, l2, v2);
+  double best = 100;
+  for (double psi = -kPi; psi < kPi; psi += 1e-3) {
+    const double c = std::cos(psi), s = std::sin(psi);
+    const Direction d = l - Direction(c * l2.x - s * l2.y, s * l2.x + c * l2.y, l2.z);
+    const Direction e = v - Direction(c * v2.x - s * v2.y, s * v2.x + c * v2.y, v2.z);
+    best = std::min(best, dot(d, d) + dot(e, e));
+  }
+  return std::sqrt(best);
+}
+
+TEST(Csv, ReachesAsFarAsTheMetricItStates) {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> unit(0, 1);
-  std::vector<std::array<Direction, 2>> pairs;
-  std::string text = "theta_i,theta_o,phi,r,g,b\n";
-  for (int i = 0; i < 2000; ++i) {
-    const Elevations e{1.5 * unit(random), 1.5 * unit(random), 3.1 * unit(random)};
+  int near = 0;
+  for (int i = 0; i < 400; ++i) {
+    // theta_i and theta_o differ by more than the reach, so that the swapped pair is never near.
+    const Elevations e{0.7 * unit(random), 0.9 + 0.6 * unit(random), kPi * unit(random)};
+    const auto off = [&](double x, double most) { return std::clamp(x + 0.16 * (unit(random) - 0.5), 0.0, most); };
+    const Elevations q{off(e.theta_i, 1.5), off(e.theta_o, 1.5), std::clamp(e.phi + 0.6 * (unit(random) - 0.5), 0.0, kPi)};
+    const double distance = distance_by_search(e, q);
+    if (std::abs(distance - kCsvReach) < 1e-3) continue;  // the search's own step
+    const auto material = parse_csv("theta_i,theta_o,phi,r,g,b\n" + std::to_string(e.theta_i) + "," + std::to_string(e.theta_o) +
+                                    "," + std::to_string(e.phi) + ",1,1,1\n", "m");
     Direction l, v;
-    directions_at(e, l, v);
-    pairs.push_back({l, v});
-    text += std::to_string(e.theta_i) + "," + std::to_string(e.theta_o) + "," + std::to_string(e.phi) + "," + std::to_string(i) + ",0,0\n";
-  }
-  const auto material = parse_csv(text, "m");
-  int found = 0;
-  for (int i = 0; i < 200; ++i) {
-    // A small step away from a sample, whose nearest is still that sample.
-    const std::size_t k = std::size_t(unit(random) * 2000);
-    Elevations e = elevations(pairs[k][0], pairs[k][1]);
-    e.phi = std::clamp(e.phi + 1e-4, 0.0, kPi);
-    Direction l, v;
-    directions_at(e, l, v);
+    directions_at(q, l, v);
     Rgb f;
-    ASSERT_TRUE(material->evaluate(l, v, f));
-    found += std::abs(f.r - double(k)) < 0.02 * double(k) + 2;
+    EXPECT_EQ(material->evaluate(l, v, f), distance < kCsvReach) << "distance " << distance;
+    near += distance < kCsvReach;
   }
-  EXPECT_GE(found, 195);  // a few of the 200 have a second sample within 1e-3
+  EXPECT_GT(near, 50);
+  EXPECT_LT(near, 350);
+}
+
+// The tree prunes nothing that a search through all samples would find.
+TEST(Csv, TreeFindsWhatOneSampleAtATimeFinds) {
+  std::mt19937 random(6);
+  std::uniform_real_distribution<double> unit(0, 1);
+  std::string rows[400];
+  std::string all = "theta_i,theta_o,phi,r,g,b\n";
+  const std::string header = all;
+  for (std::string& row : rows) {
+    row = std::to_string(1.5 * unit(random)) + "," + std::to_string(1.5 * unit(random)) + "," + std::to_string(kPi * unit(random)) + ",1,1,1\n";
+    all += row;
+  }
+  const auto together = parse_csv(all, "m");
+  std::vector<std::unique_ptr<Material>> apart;
+  for (const std::string& row : rows) apart.push_back(parse_csv(header + row, "m"));
+  int found = 0;
+  for (int i = 0; i < 500; ++i) {
+    Direction l, v;
+    directions_at({1.5 * unit(random), 1.5 * unit(random), kPi * unit(random)}, l, v);
+    Rgb f;
+    const bool any = std::any_of(apart.begin(), apart.end(), [&](const auto& one) { return one->evaluate(l, v, f); });
+    EXPECT_EQ(together->evaluate(l, v, f), any);
+    found += any;
+  }
+  EXPECT_GT(found, 50);
+  EXPECT_LT(found, 450);
 }
 
 TEST(Csv, PhiHasNoMeaningAtNormalIncidence) {

@@ -1,7 +1,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
-#include <fstream>
+#include <csignal>
+#include <filesystem>
 
 #include "fit/measured/measured.h"
 #include "render/files/files.h"
@@ -41,6 +44,22 @@ TEST(Files, WritesWholeAndLeavesNoTemporary) {
   fs::create_directories(folder.path / "taken");
   EXPECT_THROW(files::write_whole(folder.path / "taken", "x"), std::runtime_error);
   EXPECT_EQ(std::distance(fs::directory_iterator(folder.path), {}), 2) << "no temporary after a failure";
+}
+
+TEST(Files, AFullDiskLeavesTheOldFileAndNoTemporary) {
+  const Folder folder;
+  const fs::path file = folder.path / "a.txt";
+  files::write_whole(file, "old");
+  rlimit before{};
+  ::getrlimit(RLIMIT_FSIZE, &before);
+  const rlimit small{10, before.rlim_max};
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  ::setrlimit(RLIMIT_FSIZE, &small);
+  EXPECT_THROW(files::write_whole(file, std::string(100, 'x')), std::runtime_error);
+  ::setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, handler);
+  EXPECT_EQ(files::read_whole(file, 100), "old");
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder.path), {}), 1);
 }
 
 TEST(Files, ReadsUpToTheLimitAndRefusesBeyond) {

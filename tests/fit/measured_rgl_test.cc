@@ -101,6 +101,16 @@ TEST(Rgl, RefusesAShapeWhoseProductOverflows) {
   EXPECT_THROW(parse_rgl(bytes, "m"), InputError);
 }
 
+TEST(Rgl, TakesAFirstThetaIThatIsARoundingBelowZero) {
+  std::string bytes = small_rgl();
+  const float below = -1e-9f;
+  const std::size_t header = bytes.find("theta_i") + 7 + 2 + 1;  // then uint64 offset
+  std::uint64_t offset = 0;
+  std::memcpy(&offset, bytes.data() + header, 8);
+  std::memcpy(bytes.data() + offset, &below, 4);
+  parse_rgl(bytes, "m")->for_each_sample([](const Sample& s) { ASSERT_TRUE(std::isfinite(s.weight) && std::isfinite(s.f.r)); });
+}
+
 TEST(Rgl, RefusesNaNInItsParametrisationAndDropsItInItsColors) {
   EXPECT_THROW(parse_rgl(small_rgl({.sigma = std::nanf("")}), "m"), InputError);
   EXPECT_THROW(parse_rgl(small_rgl({.color = Rgb(std::nan(""))}), "m"), InputError) << "no valid sample";
