@@ -56,6 +56,7 @@ struct Batch {
   const Options& options;
   const fs::path& out;
   const std::function<bool()>& stop;
+  const std::function<void(const std::string&)>& begins;
   bool keep_results;
 
   Outcome run(const Job& job) const {
@@ -76,7 +77,7 @@ struct Batch {
       outcome.taken_over = outcome.row.has_value();
     }
     if (!outcome.taken_over) {
-      Result result = fit_material(*material, job.name, options, stop);
+      Result result = fit_material(*material, job.name, options, stop, begins);
       result.sha256 = hash;
       result.timing.load += load;
       began = thread_cpu_seconds();
@@ -137,14 +138,16 @@ std::vector<Job> jobs_of(const std::vector<std::string>& paths) {
 }
 
 BatchResult run_batch(const std::vector<Job>& jobs, const Options& options, const fs::path& out,
-                      const std::function<bool()>& stop, const std::function<void(const BatchProgress&)>& tell) {
+                      const std::function<bool()>& stop, const std::function<void(const BatchProgress&)>& tell,
+                      const std::function<void(const std::string&)>& begins) {
   check(options);
+  const std::function<void(const std::string&)> nobody;
   const tbb::global_control threads(
       tbb::global_control::max_allowed_parallelism,
       options.threads > 0 ? static_cast<std::size_t>(options.threads) : tbb::this_task_arena::max_concurrency());
   using Clock = std::chrono::steady_clock;
   const auto began = Clock::now();
-  const Batch batch{options, out, stop, jobs.size() == 1};
+  const Batch batch{options, out, stop, jobs.size() == 1 ? begins : nobody, jobs.size() == 1};
   std::vector<Outcome> outcomes(jobs.size());
   std::mutex telling;
   BatchProgress progress;

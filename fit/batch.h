@@ -42,8 +42,10 @@ struct BatchResult {
 // Fits every job and writes into `out`: NAME.fit.json, NAME.material.json and NAME.html for each, and for more than
 // one job index.html. Each file is whole or absent. What an earlier run finished (same input, options and version) is
 // taken over; a file that cannot be used is listed and left behind. When stop() says so, what is finished stays,
-// what is under way is dropped, and the overview of what there is is written.
+// what is under way is dropped, and the overview of what there is is written. `begins` is told the models of a single
+// job as their fits begin.
 BatchResult run_batch(const std::vector<Job>& jobs, const Options& options, const std::filesystem::path& out,
-                      const std::function<bool()>& stop, const std::function<void(const BatchProgress&)>& tell);
+                      const std::function<bool()>& stop, const std::function<void(const BatchProgress&)>& tell,
+                      const std::function<void(const std::string&)>& begins = {});
 
 }  // namespace likeness::fit

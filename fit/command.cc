@@ -58,6 +58,14 @@ void tell(const BatchProgress& p) {
     std::cerr << line.str() << "\n";
 }
 
+// A single material that takes more than a moment (every sample of a table: half a minute) says what it is at.
+void tell_model(const std::string& label) {
+  if (isatty(STDERR_FILENO) != 0) std::cerr << "\r\x1b[Kfitting " << label << std::flush;
+}
+void end_of_models() {
+  if (isatty(STDERR_FILENO) != 0) std::cerr << "\r\x1b[K" << std::flush;
+}
+
 void print_candidate(const Candidate& c) {
   const auto error = [](double a, double b) { return std::abs(a - b); };
   const Metrics& m = c.metrics;
@@ -79,6 +87,7 @@ void print_result(const Result& r, const std::filesystem::path& base) {
   for (const Candidate& c : r.baselines) print_candidate(c);
   for (const auto* c : {&r.hand_set, &r.hand_set_disney})
     if (c->has_value()) print_candidate(**c);
+  for (const std::string& note : r.notes) std::cout << "\n  Note: " << note << "\n";
   std::cout << "\n  report    " << base.string() << ".html\n  material  " << base.string()
             << ".material.json\n  numbers   " << base.string() << ".fit.json\n";
 }
@@ -112,7 +121,9 @@ int run_fit(FitOptions& o) {
   std::signal(SIGINT, interrupt);
   std::signal(SIGTERM, interrupt);
   const std::filesystem::path out = o.out;
-  const BatchResult batch = run_batch(jobs, o.fit, out, [] { return interrupted.load(); }, jobs.size() > 1 ? tell : nullptr);
+  const BatchResult batch = run_batch(jobs, o.fit, out, [] { return interrupted.load(); },
+                                      jobs.size() > 1 ? tell : nullptr, tell_model);
+  if (jobs.size() == 1) end_of_models();
 
   if (batch.interrupted) {
     std::cerr << "\nlikeness: interrupted; " << batch.rows.size() << " of " << jobs.size() << " finished are in "

@@ -1,6 +1,9 @@
 #include "fit/fit.h"
 
+#include <array>
+#include <cmath>
 #include <ctime>
+#include <sstream>
 
 #include "fit/coordinates.h"
 #include "fit/hand_sets.h"
@@ -53,8 +56,10 @@ struct Work {
   const Reference& reference;
   const SampleSet& samples;
   const std::function<bool()>& stop;
+  const std::function<void(const std::string&)>& begins;
 
   Fitted fit(const AnyBrdf& model, Tier tier, int starts, const Fitted* poorer) const {
+    if (begins) begins(label_of(model, tier));
     const Coordinates coordinates = coordinates_of(model, tier);
     MultiStart how{.starts = starts, .warm = {}, .stop = stop};
     if (poorer != nullptr) how.warm = poorer->channels;
@@ -87,6 +92,32 @@ struct Work {
   }
 };
 
+// What the fitted samples did not show. The standard slice ends half a degree from the mirror direction: a lobe that is
+// narrower is known from its foot alone, and may carry more light, or less, than the material's.
+std::vector<std::string> notes_of(const Result& result) {
+  std::vector<std::string> notes;
+  const Metrics& m = result.best.metrics;
+  const double model[3] = {m.albedo_model.r, m.albedo_model.g, m.albedo_model.b};
+  const double reference[3] = {m.albedo_reference.r, m.albedo_reference.g, m.albedo_reference.b};
+  int worst = 0;
+  for (int c = 1; c < 3; ++c)
+    if (std::abs(model[c] - reference[c]) > std::abs(model[worst] - reference[worst])) worst = c;
+  if (std::abs(model[worst] - reference[worst]) > 0.2 * reference[worst] + 0.01) {
+    std::ostringstream text;
+    text.precision(2);
+    text << "The fit reflects " << model[worst] << " of the light where the material reflects " << reference[worst] << " ("
+         << std::array{"red", "green", "blue"}[static_cast<std::size_t>(worst)] << ", bihemispherical).";
+    if (result.options.on == Domain::kSlice)
+      text << " The standard slice does not see the last half degree around the mirror direction; to render with this"
+              " material, fit every sample: --on table.";
+    notes.push_back(text.str());
+  }
+  if (m.slice_samples * 2 < m.slice_grid)
+    notes.push_back("Only " + std::to_string(m.slice_samples) + " of the slice's " + std::to_string(m.slice_grid) +
+                    " samples have valid data within the cut.");
+  return notes;
+}
+
 }  // namespace
 
 void check(const Options& options) {
@@ -102,13 +133,13 @@ void check(const Options& options) {
 }
 
 int default_starts(const std::string& model, Tier tier) {
-  if (model == "callisto" && tier == Tier::kFull) return 48;
+  if (model == "callisto" && tier == Tier::kFull) return 64;
   if (model == "callisto" && tier == Tier::kAdvanced) return 24;
   return 12;
 }
 
 Result fit_material(const measured::Material& material, const std::string& name, const Options& options,
-                    const std::function<bool()>& stop) {
+                    const std::function<bool()>& stop, const std::function<void(const std::string&)>& begins) {
   check(options);
   const AnyBrdf model = model_named(options.model);
   Result result;
@@ -126,7 +157,7 @@ Result fit_material(const measured::Material& material, const std::string& name,
   };
   const Reference reference(material, options.cut_deg);
   const SampleSet samples = sample_set(material, reference.slice(), options);
-  const Work work{reference, samples, stop};
+  const Work work{reference, samples, stop, begins};
   result.timing.load += lap();
 
   // The chain from Lambert + GGX up to what was asked for.
@@ -166,6 +197,7 @@ Result fit_material(const measured::Material& material, const std::string& name,
   if (result.hand_set) result.hand_set->metrics = reference.of(result.hand_set->brdf);
   if (result.hand_set_disney) result.hand_set_disney->metrics = reference.of(result.hand_set_disney->brdf);
   result.pattern = pattern_of(result.best.brdf);
+  result.notes = notes_of(result);
   result.timing.metrics = lap();
   return result;
 }

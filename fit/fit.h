@@ -18,8 +18,10 @@ namespace likeness::fit {
 // name        of the material: looked up among the talk's ten.
 // Throws      files::UsageError for options that mean nothing, files::InputError where too few samples are valid,
 //             Interrupted when stop() says so.
+// begins      is told the label of each model or tier when its fit begins; empty: nobody.
 Result fit_material(const measured::Material& material, const std::string& name, const Options& options,
-                    const std::function<bool()>& stop = {});
+                    const std::function<bool()>& stop = {},
+                    const std::function<void(const std::string&)>& begins = {});
 
 // Throws files::UsageError, naming the option, its value and what is allowed.
 void check(const Options& options);

@@ -144,6 +144,7 @@ std::string result_json(const Result& r) {
            {"fresnel_stops", number(r.pattern.fresnel_stops)},
            {"retroreflection_stops", number(r.pattern.retroreflection_stops)},
            {"corner_stops", number(r.pattern.corner_stops)}}},
+         {"notes", r.notes},
          {"baselines", Json::array()},
          {"hand_sets", Json::array()},
          {"cpu_seconds",

@@ -92,6 +92,7 @@ struct Result {
   std::optional<Candidate> hand_set;        // the talk's, where the material is one of its ten
   std::optional<Candidate> hand_set_disney;
   Pattern pattern;
+  std::vector<std::string> notes;           // what the user should know before using it; whole sentences
   Timing timing;
 };
 

@@ -129,7 +129,7 @@ TEST_F(MakeMaterial, StartsFromAMaterialFileAndSetComesAfter) {
 TEST_F(MakeMaterial, BadArgumentsSayWhatIsAllowed) {
   const std::string out = " --out FOLDER/x.csv";
   EXPECT_EQ(refusal("--set rougness=1" + out),
-            "likeness make material: --set \"rougness\" is not a parameter of model \"callisto\"; did you mean "
+            "--set \"rougness\" is not a parameter of model \"callisto\"; did you mean "
             "\"roughness\"?");
   EXPECT_THAT(refusal("--set roughness=1.2" + out),
               HasSubstr("--set roughness = 1.2 is outside [0, 1] (of the sharper"));
