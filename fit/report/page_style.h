@@ -18,6 +18,7 @@ p{max-width:46rem;margin:.5em 0}
 a{color:var(--mark)}
 code{font-family:ui-monospace,"DejaVu Sans Mono",monospace;font-size:.88em}
 pre{background:var(--soft);padding:10px;overflow-x:auto;white-space:pre-wrap}
+.note{border-left:4px solid #b35806;background:#fff4e6;padding:.5rem .8rem;max-width:46rem}
 .verdict{font-size:1.25rem;line-height:1.4}
 .quiet,small,figcaption{color:var(--quiet);font-size:.875rem}
 nav a{display:inline-block;margin-right:1.1em;padding:.3em 0}

@@ -254,6 +254,8 @@ std::string command_line(const Result& result) {
 std::string report_html(const Result& result, const measured::Material& material) {
   std::string out = page_head(result.material + ": " + result.best.label);
   out += "<header>\n<h1>" + escape(result.material) + "</h1>\n<p class=\"verdict\">" + verdict(result) + "</p>\n";
+  for (const std::string& note : result.notes)
+    out += "<p class=\"note\"><strong>Note.</strong> " + escape(note) + "</p>\n";
   out +=
       "<p class=\"quiet\">Percent: RMS difference over the slice, 100 % being a BRDF value of 1 per steradian; lower "
       "is nearer. " +
