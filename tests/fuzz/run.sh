@@ -16,10 +16,11 @@ cd "$build"
 for format in merl mbsdf rgl csv; do
   mkdir -p "found/$format"
   echo "$format: $((seconds / 4)) s"
-  "./tests/fuzz/${format}_fuzz" -max_total_time=$((seconds / 4)) -max_len=8192 -timeout=10 -rss_limit_mb=1024 \
-    -print_final_stats=1 -verbosity=0 "found/$format" "$here/corpus/$format" 2>&1 | grep -E "ERROR|SUMMARY|stat::number|Test unit|logic" || true
-  if ls crash-* timeout-* oom-* >/dev/null 2>&1; then
-    echo "run.sh: $format failed on $build/$(ls crash-* timeout-* oom-* 2>/dev/null | head -1)" >&2
+  if ! "./tests/fuzz/${format}_fuzz" -max_total_time=$((seconds / 4)) -max_len=8192 -timeout=10 -rss_limit_mb=1024 \
+    -print_final_stats=1 -artifact_prefix="$format-" "found/$format" "$here/corpus/$format" >"$format.log" 2>&1; then
+    tail -40 "$format.log" >&2
+    echo "run.sh: $format failed; its input is $build/$format-*, the whole log $build/$format.log" >&2
     exit 1
   fi
+  grep "number_of_executed_units" "$format.log"
 done
