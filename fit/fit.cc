@@ -52,17 +52,27 @@ struct Fitted {
   std::vector<double> channels;
 };
 
+// What is fitted: the chain from Lambert + GGX up to what was asked for, then the baselines outside the chain.
+struct Task {
+  AnyBrdf model;
+  Tier tier;
+  int starts;
+  bool in_chain;  // starts at the optimum of the one before, and is never worse
+};
+
 struct Work {
-  const Reference& reference;
   const SampleSet& samples;
   const std::function<bool()>& stop;
   const std::function<void(const std::string&)>& begins;
 
-  Fitted fit(const AnyBrdf& model, Tier tier, int starts, const Fitted* poorer) const {
-    if (begins) begins(label_of(model, tier));
-    const Coordinates coordinates = coordinates_of(model, tier);
-    MultiStart how{.starts = starts, .warm = {}, .stop = stop};
-    if (poorer != nullptr) how.warm = poorer->channels;
+  // `poorer`: the optimum this one may not fall behind. `before`: its own optimum on another reading of the same
+  // samples, from which it goes on without drawing starts again.
+  Fitted fit(const Task& task, const Fitted* poorer, const Fitted* before) const {
+    if (begins && before == nullptr) begins(label_of(task.model, task.tier));
+    const Coordinates coordinates = coordinates_of(task.model, task.tier);
+    MultiStart how{.starts = before == nullptr ? task.starts : 0, .warm = {}, .stop = stop};
+    if (poorer != nullptr) how.warm.push_back(poorer->channels);
+    if (before != nullptr) how.warm.push_back(before->channels);
     Optimum optimum = minimise(samples, coordinates, how);
     // Equal to the poorer tier within rounding: keep that one's very numbers.
     if (poorer != nullptr && !(optimum.loss < poorer->candidate.loss)) {
@@ -72,25 +82,54 @@ struct Work {
     Fitted out;
     out.channels = optimum.channels;
     Candidate& c = out.candidate;
-    c.label = label_of(model, tier);
-    c.brdf = unfolded(model.index(), optimum.channels);
+    if (before != nullptr) c = before->candidate;
+    c.label = label_of(task.model, task.tier);
+    c.brdf = unfolded(task.model.index(), optimum.channels);
     c.loss = optimum.loss;
     c.convergence = std::move(optimum.steps);
-    c.start_losses = std::move(optimum.start_losses);
-    c.best_start = optimum.best_start;
-    c.cpu_seconds = optimum.cpu_seconds;
+    if (before == nullptr) {
+      c.start_losses = std::move(optimum.start_losses);
+      c.best_start = optimum.best_start;
+    }
+    c.cpu_seconds += optimum.cpu_seconds;
     c.estimates = estimates_of(samples, coordinates, optimum.channels);
     return out;
   }
 
-  Candidate by_hand(const std::string& label, const AnyBrdf& model) const {
-    Candidate c;
-    c.label = label;
-    c.brdf = model;
-    c.loss = exact_loss(samples, model.index(), folded(model));
-    return c;
+  std::vector<Fitted> fit_all(const std::vector<Task>& tasks, const std::vector<Fitted>* before) const {
+    std::vector<Fitted> out;
+    for (std::size_t i = 0; i < tasks.size(); ++i)
+      out.push_back(fit(tasks[i], tasks[i].in_chain && i > 0 ? &out.back() : nullptr,
+                        before == nullptr ? nullptr : &(*before)[i]));
+    return out;
   }
 };
+
+Candidate by_hand(const SampleSet& samples, const std::string& label, const AnyBrdf& model) {
+  Candidate c;
+  c.label = label;
+  c.brdf = model;
+  c.loss = exact_loss(samples, model.index(), folded(model));
+  return c;
+}
+
+std::vector<Task> tasks_of(const AnyBrdf& model, const Options& options) {
+  std::vector<Tier> tiers{Tier::kPlain};
+  const bool tiered = has_tier(model, Tier::kFull);
+  if (tiered)
+    for (const Tier tier : {Tier::kBase, Tier::kAdvanced, Tier::kFull})
+      if (static_cast<int>(tier) <= static_cast<int>(options.tier)) tiers.push_back(tier);
+  std::vector<Task> tasks;
+  for (const Tier tier : tiers) {
+    const int own = default_starts(options.model, tier);
+    const int asked = options.starts == 0 ? own : options.starts;
+    tasks.push_back({model, tier, tier == tiers.back() ? asked : std::min(own, asked), true});
+  }
+  if (!tiered) tasks.push_back({brdf::Callisto<double>{}, Tier::kPlain, default_starts("callisto", Tier::kPlain), false});
+  if (options.model != "disney2012")
+    tasks.push_back({brdf::Disney2012<double>{}, Tier::kPlain, default_starts("disney2012", Tier::kPlain), false});
+  return tasks;
+}
 
 // What the fitted samples did not show. The standard slice ends half a degree from the mirror direction: a lobe that is
 // narrower is known from its foot alone, and may carry more light, or less, than the material's.
@@ -156,39 +195,36 @@ Result fit_material(const measured::Material& material, const std::string& name,
     return spent;
   };
   const Reference reference(material, options.cut_deg);
-  const SampleSet samples = sample_set(material, reference.slice(), options);
-  const Work work{reference, samples, stop, begins};
+  SampleSet samples = sample_set(material, reference.slice(), options, Reading::kStored);
   result.timing.load += lap();
 
-  // The chain from Lambert + GGX up to what was asked for.
-  std::vector<Tier> tiers{Tier::kPlain};
-  const bool tiered = has_tier(model, Tier::kFull);
-  if (tiered)
-    for (const Tier tier : {Tier::kBase, Tier::kAdvanced, Tier::kFull})
-      if (static_cast<int>(tier) <= static_cast<int>(options.tier)) tiers.push_back(tier);
-  std::vector<Fitted> chain;
-  for (const Tier tier : tiers) {
-    const bool asked_for = tier == tiers.back();
-    const int own = default_starts(options.model, tier);
-    const int starts = options.starts == 0 ? own : asked_for ? options.starts : std::min(own, options.starts);
-    chain.push_back(work.fit(model, tier, starts, chain.empty() ? nullptr : &chain.back()));
-    lap();
-    (asked_for ? result.timing.fit : result.timing.baselines) += chain.back().candidate.cpu_seconds;
-  }
-  result.best = std::move(chain.back().candidate);
-  chain.pop_back();
-  for (Fitted& fitted : chain) result.baselines.push_back(std::move(fitted.candidate));
+  const std::vector<Task> tasks = tasks_of(model, options);
+  std::size_t asked_for = 0;
+  while (asked_for + 1 < tasks.size() && tasks[asked_for + 1].in_chain) ++asked_for;
+  std::vector<Fitted> fitted = Work{samples, stop, begins}.fit_all(tasks, nullptr);
 
-  const auto baseline = [&](const AnyBrdf& other, Tier tier) {
-    result.baselines.push_back(work.fit(other, tier, default_starts(options.model, tier), nullptr).candidate);
-    result.timing.baselines += result.baselines.back().cpu_seconds;
-    lap();
-  };
-  if (!tiered) baseline(brdf::Callisto<double>{}, Tier::kPlain);
-  if (options.model != "disney2012") baseline(brdf::Disney2012<double>{}, Tier::kPlain);
+  // A table of bins says what f is at a bin's centre, and is asked at the grid's directions, up to half a bin away. A
+  // model that comes nearer to the table than the half bins are wide is held against the centres alone, and can be
+  // exact; any other is held against both, so that neither way of measuring it finds it at a loss.
+  if (options.on == Domain::kSlice) {
+    const AnyBrdf& best = fitted[asked_for].candidate.brdf;
+    const double half_bins = half_bin_error_pct(reference.slice(), best);
+    if (half_bins > 0 && slice_metrics(reference.slice(), best).slice_error_pct > half_bins) {
+      samples = sample_set(material, reference.slice(), options, Reading::kBoth);
+      fitted = Work{samples, stop, begins}.fit_all(tasks, &fitted);
+    }
+  }
+  for (std::size_t i = 0; i < fitted.size(); ++i) {
+    Candidate& c = fitted[i].candidate;
+    (i == asked_for ? result.timing.fit : result.timing.baselines) += c.cpu_seconds;
+    if (i == asked_for)
+      result.best = std::move(c);
+    else
+      result.baselines.push_back(std::move(c));
+  }
   if (const auto hand = hand_set_of(name)) {
-    result.hand_set = work.by_hand("Callisto, talk's hand set", hand->callisto);
-    result.hand_set_disney = work.by_hand("Disney 2012, talk's hand set", hand->disney);
+    result.hand_set = by_hand(samples, "Callisto, talk's hand set", hand->callisto);
+    result.hand_set_disney = by_hand(samples, "Disney 2012, talk's hand set", hand->disney);
   }
 
   lap();

@@ -34,31 +34,55 @@ std::array<const float*, 3> pointers(const std::array<std::vector<float>, 3>& ar
   return {arrays[0].data(), arrays[1].data(), arrays[2].data()};
 }
 
+// Sums of squared differences over samples and color channels, as a display shows them and in the logarithm.
+struct Squares {
+  double shown = 0, log = 0;
+  std::size_t count = 0;
+
+  void add(const measured::Rgb& f, const measured::Rgb& g, double cos_i) {
+    const double pair[3][2] = {{f.r, g.r}, {f.g, g.g}, {f.b, g.b}};
+    for (const auto& [a, b] : pair) {
+      const double by_eye = std::clamp(a, 0.0, 1.0) - std::clamp(b, 0.0, 1.0);
+      const double by_log = std::log1p(a * cos_i) - std::log1p(b * cos_i);
+      shown += by_eye * by_eye;
+      log += by_log * by_log;
+    }
+    count += 3;
+  }
+  double error_pct() const { return 100 * std::sqrt(shown / static_cast<double>(count)); }
+  double log_rms() const { return std::sqrt(log / static_cast<double>(count)); }
+};
+
 }  // namespace
 
 Metrics slice_metrics(const std::vector<SlicePoint>& slice, const brdf::AnyBrdf& model) {
-  double shown = 0, log = 0;
+  Squares stored, grid;
   std::visit(
       [&](const auto& m) {
         for (const SlicePoint& p : slice) {
-          const auto g = m.eval(p.geometry);
-          const double pair[3][2] = {{p.f.r, g.r}, {p.f.g, g.g}, {p.f.b, g.b}};
-          for (const auto& [f, value] : pair) {
-            const double by_eye = std::clamp(f, 0.0, 1.0) - std::clamp(value, 0.0, 1.0);
-            const double by_log = std::log1p(f * p.geometry.cos_i) - std::log1p(value * p.geometry.cos_i);
-            shown += by_eye * by_eye;
-            log += by_log * by_log;
-          }
+          stored.add(p.f, m.eval(p.at_stored), p.at_stored.cos_i);
+          grid.add(p.f, m.eval(p.at_grid), p.at_grid.cos_i);
         }
       },
       model);
-  const double count = 3 * static_cast<double>(slice.size());
   Metrics metrics;
-  metrics.slice_error_pct = 100 * std::sqrt(shown / count);
-  metrics.slice_log_rms = std::sqrt(log / count);
+  metrics.slice_error_pct = stored.error_pct();
+  metrics.slice_log_rms = stored.log_rms();
+  metrics.slice_error_pct_at_grid = grid.error_pct();
+  metrics.slice_log_rms_at_grid = grid.log_rms();
   metrics.slice_samples = slice.size();
   metrics.slice_grid = static_cast<std::size_t>(kSliceGrid) * kSliceGrid;
   return metrics;
+}
+
+double half_bin_error_pct(const std::vector<SlicePoint>& slice, const brdf::AnyBrdf& model) {
+  Squares squares;
+  std::visit(
+      [&](const auto& m) {
+        for (const SlicePoint& p : slice) squares.add(m.eval(p.at_stored), m.eval(p.at_grid), p.at_grid.cos_i);
+      },
+      model);
+  return squares.error_pct();
 }
 
 Reference::Reference(const measured::Material& material, double cut_deg) : slice_(slice_points(material, cut_deg)) {

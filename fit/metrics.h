@@ -31,7 +31,11 @@ class Reference {
   image::DisplayPicture spheres_;
 };
 
-// slice_error_pct and slice_log_rms alone: a few milliseconds.
+// The metrics of the slice alone: a few milliseconds.
 Metrics slice_metrics(const std::vector<SlicePoint>& slice, const brdf::AnyBrdf& model);
+
+// How much of a slice error the half bins between grid and stored directions are worth: slice_error_pct of the model at
+// the one against itself at the other.
+double half_bin_error_pct(const std::vector<SlicePoint>& slice, const brdf::AnyBrdf& model);
 
 }  // namespace likeness::fit

@@ -139,7 +139,7 @@ Optimum minimise(const SampleSet& samples, const Coordinates& coordinates, const
     best.cpu_seconds += s.cpu_seconds;
   }
 
-  // The best few, at different places, and the warm start in each half of the box that holds it.
+  // The best few, at different places, and each warm start in each half of the box that holds it.
   std::vector<Searched> finals;
   std::vector<std::size_t> order(drawn_searches.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -151,8 +151,8 @@ Optimum minimise(const SampleSet& samples, const Coordinates& coordinates, const
       finals.push_back(from(s.begin, s.start));
   }
   const std::size_t warm_from = finals.size();
-  if (!how.warm.empty()) {
-    const std::vector<double> at = coordinates.at_channels(how.warm);
+  for (const std::vector<double>& warm : how.warm) {
+    const std::vector<double> at = coordinates.at_channels(warm);
     double lowest = 0, highest = 0;
     for (std::size_t i = 0; i < coordinates.size(); ++i)
       if (coordinates.variables[i].signed_scale) {

@@ -12,7 +12,7 @@ namespace likeness::fit {
 struct MultiStart {
   int starts = 40;               // drawn starts; the same ones for every material and thread count
   int finished = 3;              // how many of them are finished on all samples
-  std::vector<double> warm;      // folded channels of the poorer tier's optimum; always finished; empty: none
+  std::vector<std::vector<double>> warm;  // folded channels of known optima (the poorer tier's); always finished
   std::function<bool()> stop;    // true: give up (throws Interrupted)
 };
 

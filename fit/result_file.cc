@@ -32,6 +32,8 @@ Json options_json(const Options& o) {
 Json metrics_json(const Metrics& m) {
   return {{"slice_error_pct", number(m.slice_error_pct)},
           {"slice_log_rms", number(m.slice_log_rms)},
+          {"slice_error_pct_at_grid", number(m.slice_error_pct_at_grid)},
+          {"slice_log_rms_at_grid", number(m.slice_log_rms_at_grid)},
           {"log_rms_3d", number(m.log_rms_3d)},
           {"albedo_reference", color(m.albedo_reference)},
           {"albedo_model", color(m.albedo_model)},
@@ -54,6 +56,8 @@ Metrics metrics_of(const Json& j) {
   };
   m.slice_error_pct = get("slice_error_pct");
   m.slice_log_rms = get("slice_log_rms");
+  m.slice_error_pct_at_grid = get("slice_error_pct_at_grid");
+  m.slice_log_rms_at_grid = get("slice_log_rms_at_grid");
   m.log_rms_3d = get("log_rms_3d");
   m.albedo_reference = rgb("albedo_reference");
   m.albedo_model = rgb("albedo_model");

@@ -102,15 +102,16 @@ std::vector<SlicePoint> slice_points(const measured::Material& material, double 
   for (int h = 0; h < kSliceGrid; ++h) {
     for (int d = 0; d < kSliceGrid; ++d) {
       const auto g = brdf::geometry_at((h + 0.5) * kDegree, (d + 0.5) * kDegree, std::numbers::pi / 2);
-      measured::Rgb f;
-      if (g.cos_i < least_cosine || g.cos_o < least_cosine || !material.evaluate(g.to_light, g.to_view, f)) continue;
-      points.push_back({h, d, g, f});
+      SlicePoint point{h, d, {}, g, g};
+      if (g.cos_i < least_cosine || g.cos_o < least_cosine || !material.nearest(g, point.f, point.at_stored)) continue;
+      points.push_back(point);
     }
   }
   return points;
 }
 
-SampleSet sample_set(const measured::Material& material, const std::vector<SlicePoint>& slice, const Options& options) {
+SampleSet sample_set(const measured::Material& material, const std::vector<SlicePoint>& slice, const Options& options,
+                     Reading reading) {
   SampleSet set{options.loss,
                 SampleArrays<float>(options.loss),
                 SampleArrays<float>(options.loss),
@@ -122,12 +123,19 @@ SampleSet sample_set(const measured::Material& material, const std::vector<Slice
     std::vector<int> width_h(kSliceGrid), width_d(kSliceGrid);
     for (const Kept& k : kept_bins(4, 4)) width_h[k.bin] = k.width;
     for (const Kept& k : kept_bins(0, 4)) width_d[k.bin] = k.width;
-    for (const SlicePoint& p : slice) {
-      const auto &l = p.geometry.to_light, &v = p.geometry.to_view;
+    const auto add = [&](const SlicePoint& p, const brdf::Geometry<double>& g, double weight) {
       const int stands_for = width_h[p.h] * width_d[p.d];
-      if (stands_for > 0) set.coarse.add(l, v, p.f, stands_for);
-      set.single.add(l, v, p.f, 1);
-      set.exact.add(l, v, p.f, 1);
+      if (stands_for > 0) set.coarse.add(g.to_light, g.to_view, p.f, weight * stands_for);
+      set.single.add(g.to_light, g.to_view, p.f, weight);
+      set.exact.add(g.to_light, g.to_view, p.f, weight);
+    };
+    for (const SlicePoint& p : slice) {
+      if (reading == Reading::kStored) {
+        add(p, p.at_stored, 1);
+      } else {
+        add(p, p.at_stored, 0.5);
+        add(p, p.at_grid, 0.5);
+      }
     }
   } else {
     const double least_cosine = std::cos(options.cut_deg * kDegree);

@@ -37,12 +37,14 @@ class SampleArrays {
 };
 
 // The standard slice of a material: 90 x 90 bin centres, theta_h and theta_d linear, phi_d = 90 deg, those with valid
-// data and both directions within the cut.
+// data and both directions within the cut. A table of bins answers with the value of the nearest bin, whose centre is
+// not quite where it was asked: both places are kept.
 inline constexpr int kSliceGrid = 90;
 struct SlicePoint {
   int h, d;  // bin of theta_h and of theta_d: angle = (bin + 0.5) deg
-  brdf::Geometry<double> geometry;
   measured::Rgb f;
+  brdf::Geometry<double> at_grid;    // the directions of the grid
+  brdf::Geometry<double> at_stored;  // where f holds (measured::Material::nearest); the same if the format interpolates
 };
 std::vector<SlicePoint> slice_points(const measured::Material& material, double cut_deg);
 
@@ -55,7 +57,13 @@ struct SampleSet {
   SampleArrays<float> table;    // all valid samples of the table; empty for the slice
   measured::Rgb diffuse_level;  // pi x the 30th percentile of f: where starts look for the base color
 };
+
+// Where a slice's values are held against the model: where they are stored, or half there and half at the grid's own
+// directions, between which a table of bins does not tell. Of no meaning for the table or for formats that interpolate.
+enum class Reading { kStored, kBoth };
+
 // Throws files::InputError, naming the material, where the cut leaves fewer than 100 samples.
-SampleSet sample_set(const measured::Material& material, const std::vector<SlicePoint>& slice, const Options& options);
+SampleSet sample_set(const measured::Material& material, const std::vector<SlicePoint>& slice, const Options& options,
+                     Reading reading);
 
 }  // namespace likeness::fit

@@ -46,6 +46,15 @@ class Material {
   // f(l, v) [1/sr]; false, and f untouched, where the file has no valid data for these directions.
   virtual bool evaluate(const Direction& to_light, const Direction& to_view, Rgb& f) const = 0;
 
+  // The value that stands for a pair of directions, and the pair at which it holds: this one where the format
+  // interpolates, the centre of the nearest bin in a MERL table. A model is held against f there; at the asked pair
+  // it would also be charged for the half bin between the two. False, and both untouched, where there is none.
+  virtual bool nearest(const brdf::Geometry<double>& asked, Rgb& f, brdf::Geometry<double>& holds) const {
+    if (!evaluate(asked.to_light, asked.to_view, f)) return false;
+    holds = asked;
+    return true;
+  }
+
   // Calls visit for every valid sample above the horizon, always in the same order.
   virtual void for_each_sample(const std::function<void(const Sample&)>& visit) const = 0;
 

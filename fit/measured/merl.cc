@@ -75,6 +75,16 @@ bool Merl::value(std::size_t bin, Rgb& f) const {
   return true;
 }
 
+bool Merl::nearest(const brdf::Geometry<double>& asked, Rgb& f, brdf::Geometry<double>& holds) const {
+  const std::size_t at = bin(half_angles(asked.to_light, asked.to_view));
+  if (!value(at, f)) return false;
+  const auto i = static_cast<int>(at);
+  const HalfAngles centre = merl_bin_centre(size_, i / (size_.theta_d * size_.phi_d), i / size_.phi_d % size_.theta_d,
+                                            i % size_.phi_d);
+  holds = brdf::geometry_at(centre.theta_h, centre.theta_d, centre.phi_d);
+  return true;
+}
+
 bool Merl::evaluate(const Direction& to_light, const Direction& to_view, Rgb& f) const {
   if (!(to_light.z > 0) || !(to_view.z > 0)) return false;
   return value(bin(half_angles(to_light, to_view)), f);

@@ -41,6 +41,7 @@ class Merl final : public Material {
   const MerlSize& size() const { return size_; }
 
   bool evaluate(const Direction& to_light, const Direction& to_view, Rgb& f) const override;
+  bool nearest(const brdf::Geometry<double>& asked, Rgb& f, brdf::Geometry<double>& holds) const override;
   void for_each_sample(const std::function<void(const Sample&)>& visit) const override;
   Coverage coverage() const override { return coverage_; }
   Format format() const override { return Format::kMerl; }

@@ -63,10 +63,18 @@ std::vector<MetricRow> metric_rows(const Result& result) {
                     std::move(definition), better, functions.first, functions.second});
   };
   add("Slice error [%]",
-      "100 × RMS of clamp01 f − clamp01 g over RGB, f the measurement and g the model in 1/sr; " + slice,
+      "100 × RMS of clamp01 f − clamp01 g over RGB, f the measurement and g the model in 1/sr, both at "
+      "the directions of the stored value; " + slice,
       Better::kLower, metric(&Metrics::slice_error_pct, 2));
   add("Slice log RMS", "RMS of ln(1 + f cos θi) − ln(1 + g cos θi); " + slice, Better::kLower,
       metric(&Metrics::slice_log_rms, 4));
+  if (result.format == measured::Format::kMerl) {
+    const std::string at_grid =
+        "as above, with the model at the grid's directions although a table's value holds at the centre of the nearest "
+        "bin: the reading of published numbers";
+    add("Slice error at grid [%]", at_grid, Better::kLower, metric(&Metrics::slice_error_pct_at_grid, 2));
+    add("Slice log RMS at grid", at_grid, Better::kLower, metric(&Metrics::slice_log_rms_at_grid, 4));
+  }
   add("Whole-table log RMS", "the same difference over " + table, Better::kLower, metric(&Metrics::log_rms_3d, 4));
   rows.push_back({"Albedo error", "nearest to 0 is best",
                   "bihemispherical reflectance within the cut, model − measured; the measured one is " +

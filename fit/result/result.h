@@ -28,6 +28,9 @@ struct Options {
 struct Metrics {
   double slice_error_pct = 0;   // 100 sqrt(mean (clamp01 f - clamp01 g)^2), standard slice
   double slice_log_rms = 0;     // RMS of ln(1 + f cos_i) - ln(1 + g cos_i), standard slice
+  // The same two with the model at the grid's directions although a table's value holds at the centre of the nearest
+  // bin, as published numbers have it. Equal to the above for formats that interpolate.
+  double slice_error_pct_at_grid = 0, slice_log_rms_at_grid = 0;
   double log_rms_3d = 0;        // the same over the whole table, weighted by solid angle
   measured::Rgb albedo_reference, albedo_model;  // bihemispherical reflectance within the cut [1]
   double sphere_psnr = 0;       // [dB], two spheres lit at 30 and 120 degrees, displayed in sRGB
