@@ -38,7 +38,7 @@ Problem problem() {
   std::vector<SlicePoint> some;
   const auto all = slice_points(material, 80);
   for (std::size_t i = 0; i < all.size(); i += 11) some.push_back(all[i]);
-  SampleSet samples = sample_set(material, some, Options{});
+  SampleSet samples = samples_of(material, some);
   return {std::move(some), std::move(samples), coordinates_of(brdf::Callisto<double>{}, brdf::Tier::kFull)};
 }
 

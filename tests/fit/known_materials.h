@@ -13,6 +13,7 @@
 #include "brdf/any_brdf.h"
 #include "datasets_synthetic/material.h"
 #include "fit/measured/measured.h"
+#include "fit/samples.h"
 
 // Measured materials whose truth is known, and the real ones that the talk sets by hand.
 namespace likeness::fit::test {
@@ -71,6 +72,11 @@ inline double normal_at(const measured::Direction& l, const measured::Direction&
   const double u = static_cast<double>(x >> 11) * 0x1p-53;
   const double w = static_cast<double>(mixed(x + 0x9e3779b97f4a7c15) >> 11) * 0x1p-53;
   return std::sqrt(-2 * std::log(1 - u)) * std::cos(2 * std::numbers::pi * w);
+}
+
+// What a fit of a slice sums over, each value at the directions where it is stored.
+inline SampleSet samples_of(const measured::Material& material, const std::vector<SlicePoint>& slice) {
+  return sample_set(material, slice, Options{}, Reading::kStored);
 }
 
 // A MERL table of a model, with faults, as a file would hold it.

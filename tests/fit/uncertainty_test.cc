@@ -23,7 +23,7 @@ std::map<std::string, Estimate> named(const std::vector<Estimate>& estimates) {
 }
 
 SampleSet samples_of(const measured::Material& material) {
-  return sample_set(material, slice_points(material, 80), Options{});
+  return test::samples_of(material, slice_points(material, 80));
 }
 
 std::map<std::string, Estimate> fitted(const measured::Material& material, Tier tier, const Callisto<double>& truth) {
@@ -31,7 +31,7 @@ std::map<std::string, Estimate> fitted(const measured::Material& material, Tier 
   const Coordinates coordinates = coordinates_of(truth, tier);
   // From the truth: the spread is that of one valley, not of which valley is found.
   const Optimum optimum =
-      minimise(samples, coordinates, {.starts = 1, .finished = 1, .warm = folded(truth), .stop = {}});
+      minimise(samples, coordinates, {.starts = 1, .finished = 1, .warm = {folded(truth)}, .stop = {}});
   return named(estimates_of(samples, coordinates, optimum.channels));
 }
 
