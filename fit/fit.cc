@@ -30,7 +30,11 @@ AnyBrdf model_named(const std::string& name) {
   AnyBrdf model;
   if (!brdf::model_of_name(name, model)) {
     const std::string near = files::nearest_name(name, brdf::kModelNames.data(), brdf::kModelNames.size());
-    throw files::UsageError("--model " + name + " is not a model" + (near.empty() ? "" : "; did you mean " + near + "?"));
+    std::string known;
+    for (const std::string_view model_name : brdf::kModelNames)
+      known += (known.empty() ? "" : ", ") + std::string(model_name);
+    throw files::UsageError("--model " + name + " is not one of " + known +
+                            (near.empty() ? "" : "; did you mean " + near + "?"));
   }
   return model;
 }
@@ -38,8 +42,9 @@ AnyBrdf model_named(const std::string& name) {
 std::string label_of(const AnyBrdf& model, Tier tier) {
   const std::string name(brdf::kModelNames[model.index()]);
   if (name == "callisto")
-    return tier == Tier::kPlain ? "Lambert + GGX"
-                                : "Callisto, " + std::string(brdf::kTierNames[static_cast<std::size_t>(tier)]) + " tier";
+    return tier == Tier::kPlain
+               ? "Lambert + GGX"
+               : "Callisto, " + std::string(brdf::kTierNames[static_cast<std::size_t>(tier)]) + " tier";
   if (name == "disney2012") return "Disney 2012";
   if (name == "ggx") return "GGX";
   if (name == "lambert") return "Lambert";
@@ -125,7 +130,8 @@ std::vector<Task> tasks_of(const AnyBrdf& model, const Options& options) {
     const int asked = options.starts == 0 ? own : options.starts;
     tasks.push_back({model, tier, tier == tiers.back() ? asked : std::min(own, asked), true});
   }
-  if (!tiered) tasks.push_back({brdf::Callisto<double>{}, Tier::kPlain, default_starts("callisto", Tier::kPlain), false});
+  if (!tiered)
+    tasks.push_back({brdf::Callisto<double>{}, Tier::kPlain, default_starts("callisto", Tier::kPlain), false});
   if (options.model != "disney2012")
     tasks.push_back({brdf::Disney2012<double>{}, Tier::kPlain, default_starts("disney2012", Tier::kPlain), false});
   return tasks;
@@ -144,8 +150,8 @@ std::vector<std::string> notes_of(const Result& result) {
   if (std::abs(model[worst] - reference[worst]) > 0.2 * reference[worst] + 0.01) {
     std::ostringstream text;
     text.precision(2);
-    text << "The fit reflects " << model[worst] << " of the light where the material reflects " << reference[worst] << " ("
-         << std::array{"red", "green", "blue"}[static_cast<std::size_t>(worst)] << ", bihemispherical).";
+    text << "The fit reflects " << model[worst] << " of the light where the material reflects " << reference[worst]
+         << " (" << std::array{"red", "green", "blue"}[static_cast<std::size_t>(worst)] << ", bihemispherical).";
     if (result.options.on == Domain::kSlice)
       text << " The standard slice does not see the last half degree around the mirror direction; to render with this"
               " material, fit every sample: --on table.";
@@ -166,9 +172,11 @@ void check(const Options& options) {
   if (!(options.cut_deg >= 20 && options.cut_deg <= 90))
     throw files::UsageError("--cut " + std::to_string(options.cut_deg) + " is outside [20, 90] degrees; 80 is usual");
   if (options.starts < 0 || options.starts > 100000)
-    throw files::UsageError("--starts " + std::to_string(options.starts) + " is outside [0, 100000]; 0 takes the model's own number");
+    throw files::UsageError("--starts " + std::to_string(options.starts) +
+                            " is outside [0, 100000]; 0 takes the model's own number");
   if (options.threads < 0 || options.threads > 1024)
-    throw files::UsageError("--threads " + std::to_string(options.threads) + " is outside [0, 1024]; 0 takes one a core");
+    throw files::UsageError("--threads " + std::to_string(options.threads) +
+                            " is outside [0, 1024]; 0 takes one a core");
 }
 
 int default_starts(const std::string& model, Tier tier) {
@@ -217,10 +225,8 @@ Result fit_material(const measured::Material& material, const std::string& name,
   for (std::size_t i = 0; i < fitted.size(); ++i) {
     Candidate& c = fitted[i].candidate;
     (i == asked_for ? result.timing.fit : result.timing.baselines) += c.cpu_seconds;
-    if (i == asked_for)
-      result.best = std::move(c);
-    else
-      result.baselines.push_back(std::move(c));
+    if (i == asked_for) result.best = std::move(c);
+    else result.baselines.push_back(std::move(c));
   }
   if (const auto hand = hand_set_of(name)) {
     result.hand_set = by_hand(samples, "Callisto, talk's hand set", hand->callisto);

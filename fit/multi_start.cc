@@ -169,7 +169,7 @@ Optimum minimise(const SampleSet& samples, const Coordinates& coordinates, const
 
   // In single precision first, which is twice as fast; the two best of them exactly, and the winner to the end.
   in_parallel(finals.size(), [&](std::size_t i) {
-    go_on(samples, coordinates, Fineness::kSingle, 60, 1e-4, how.stop, finals[i]);
+    go_on(samples, coordinates, Fineness::kSingle, 35, 2e-4, how.stop, finals[i]);
   });
   std::ranges::stable_sort(finals, {}, &Searched::loss);
   in_parallel(std::min<std::size_t>(finals.size(), 2), [&](std::size_t i) {
