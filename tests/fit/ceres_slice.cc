@@ -76,11 +76,11 @@ struct Residuals {
     const auto model = brdf::model_from_channels<brdf::Callisto, T>(channels.data());
     const double mean = 1 / std::sqrt(3.0 * static_cast<double>(problem.points.size()));
     for (const SlicePoint& p : problem.points) {
-      const auto g = model.eval(p.geometry);
+      const auto g = model.eval(p.at_stored);
       const T value[3] = {g.r, g.g, g.b};
       const double f[3] = {p.f.r, p.f.g, p.f.b};
       for (int c = 0; c < 3; ++c) {
-        *out++ = mean * (std::log1p(f[c] * p.geometry.cos_i) - log(T(1) + value[c] * p.geometry.cos_i));
+        *out++ = mean * (std::log1p(f[c] * p.at_stored.cos_i) - log(T(1) + value[c] * p.at_stored.cos_i));
         *out++ = mean * kShownWeight * (std::min(f[c], 1.0) - (value[c] < T(1) ? value[c] : T(1)));
       }
     }
