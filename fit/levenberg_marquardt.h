@@ -22,7 +22,7 @@ struct Quadratic {
 //             is stopped there and the rest of the step solved again.
 // Holds       the loss never rises, and x is within the bounds, at every step.
 // Why not     ceres::Solve: it takes unbounded steps and projects them afterwards, which on these problems
-//             (half of the variables end at a bound) needs several times the evaluations: docs/decisions/.
+//             (half of the variables end at a bound) needs 2.4 times the evaluations: docs/decisions/0001-bounded-levenberg-marquardt.md.
 struct Minimiser {
   std::function<Quadratic(const Eigen::VectorXd& x)> evaluate;
   Eigen::VectorXd low, high;

@@ -36,7 +36,8 @@ std::string verdict(const Result& result) {
   const Candidate* nearest = all.front();
   for (const Candidate* candidate : all)
     if (candidate->metrics.slice_error_pct < nearest->metrics.slice_error_pct) nearest = candidate;
-  if (nearest != all.front())
+  constexpr double kWorthSaying = 0.99;  // less than a percent of the error is the tie of two optima
+  if (nearest->metrics.slice_error_pct < kWorthSaying * all.front()->metrics.slice_error_pct)
     out += " By this measure <strong>" + escape(nearest->label) +
            "</strong> is nearer; the fit minimises its loss, not this number: see the metrics.";
   return out;
