@@ -6,13 +6,13 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <ctime>
 #include <limits>
 #include <map>
 #include <mutex>
 #include <optional>
 #include <sstream>
 
+#include "fit/cpu_clock.h"
 #include "fit/fit.h"
 #include "fit/report/report.h"
 #include "fit/result_file.h"
@@ -29,12 +29,6 @@ bool is_measured(const fs::path& file) {
   std::string extension = file.extension().string();
   std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
   return extension == ".binary" || extension == ".mbsdf" || extension == ".bsdf" || extension == ".csv";
-}
-
-double thread_cpu_seconds() {
-  timespec t{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
 std::string percent(double value) {

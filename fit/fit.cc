@@ -2,10 +2,10 @@
 
 #include <array>
 #include <cmath>
-#include <ctime>
 #include <sstream>
 
 #include "fit/coordinates.h"
+#include "fit/cpu_clock.h"
 #include "fit/hand_sets.h"
 #include "fit/metrics.h"
 #include "fit/multi_start.h"
@@ -19,12 +19,6 @@ namespace {
 
 using brdf::AnyBrdf;
 using brdf::Tier;
-
-double thread_cpu_seconds() {
-  timespec t{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
 
 AnyBrdf model_named(const std::string& name) {
   AnyBrdf model;

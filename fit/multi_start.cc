@@ -5,20 +5,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <numeric>
+
+#include "fit/cpu_clock.h"
 
 namespace likeness::fit {
 
 namespace {
 
 using Eigen::VectorXd;
-
-double thread_cpu_seconds() {
-  timespec t{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
 
 // A number in [0, 1) for a start and a parameter: the same on every machine.
 double drawn(int start, std::string_view name) {
