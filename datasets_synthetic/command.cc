@@ -141,7 +141,7 @@ void print_table(const brdf::AnyBrdf& brdf, std::ostream& out) {
 // Where the material of that seed goes: the file that --out names, or a file in the folder that it names.
 std::filesystem::path file_asked(const MakeOptions& options, Format format, std::string_view model,
                                  std::uint64_t seed) {
-  const std::filesystem::path out = options.out;
+  std::filesystem::path out = options.out;
   if (out.extension() == extension_of(format)) return out;
   return out / (std::string(model) + "_" + std::to_string(seed) + std::string(extension_of(format)));
 }

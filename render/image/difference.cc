@@ -37,8 +37,10 @@ Plane product(const Plane& a, const Plane& b) {
 std::array<double, kWindow> gaussian() {
   std::array<double, kWindow> weights{};
   double sum = 0;
-  for (int i = 0; i < kWindow; ++i)
-    sum += weights[i] = std::exp(-0.5 * (i - kWindow / 2) * (i - kWindow / 2) / (kSigma * kSigma));
+  for (int i = 0; i < kWindow; ++i) {
+    const int from_middle = i - kWindow / 2;
+    sum += weights[i] = std::exp(-0.5 * from_middle * from_middle / (kSigma * kSigma));
+  }
   for (double& w : weights) w /= sum;
   return weights;
 }
