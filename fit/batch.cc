@@ -1,5 +1,7 @@
 #include "fit/batch.h"
 
+#include <unistd.h>
+
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 
@@ -100,10 +102,12 @@ std::vector<Job> jobs_of(const std::vector<std::string>& paths) {
     std::error_code error;
     if (fs::is_directory(path, error)) {
       std::vector<fs::path> inside;
-      for (const auto& entry : fs::recursive_directory_iterator(path, fs::directory_options::skip_permission_denied, error))
+      for (const auto& entry :
+           fs::recursive_directory_iterator(path, fs::directory_options::skip_permission_denied, error))
         if (entry.is_regular_file(error) && is_measured(entry.path())) inside.push_back(entry.path());
       if (inside.empty())
-        throw files::InputError(path + ": a folder without measured files; expected .binary, .mbsdf, .bsdf or .csv in it");
+        throw files::InputError(path +
+                                ": a folder without measured files; expected .binary, .mbsdf, .bsdf or .csv in it");
       std::ranges::sort(inside);
       found.insert(found.end(), inside.begin(), inside.end());
     } else if (fs::exists(path, error)) {
@@ -124,7 +128,8 @@ std::vector<Job> jobs_of(const std::vector<std::string>& paths) {
   for (const fs::path& file : found) {
     if (std::ranges::any_of(jobs, [&](const Job& j) { return j.file == file; })) continue;
     int length = 0;
-    while (length < 2 && std::ranges::count_if(found, [&](const fs::path& f) { return name(f, length) == name(file, length); }) > 1)
+    while (length < 2 &&
+           std::ranges::count_if(found, [&](const fs::path& f) { return name(f, length) == name(file, length); }) > 1)
       ++length;
     jobs.push_back({file, name(file, length)});
   }
@@ -135,6 +140,11 @@ BatchResult run_batch(const std::vector<Job>& jobs, const Options& options, cons
                       const std::function<bool()>& stop, const std::function<void(const BatchProgress&)>& tell,
                       const std::function<void(const std::string&)>& begins) {
   check(options);
+  std::error_code cause;
+  fs::create_directories(out, cause);
+  if (cause || access(out.c_str(), W_OK) != 0)
+    throw files::UsageError("--out " + out.string() + " cannot be written to (" +
+                            (cause ? cause.message() : "no permission") + "); name a folder that can");
   const std::function<void(const std::string&)> nobody;
   const tbb::global_control threads(
       tbb::global_control::max_allowed_parallelism,
@@ -165,19 +175,22 @@ BatchResult run_batch(const std::vector<Job>& jobs, const Options& options, cons
   };
 
   // One material a task: they differ in cost, and no more of them than threads are in memory at once.
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, jobs.size(), 1), [&](const tbb::blocked_range<std::size_t>& range) {
-    for (std::size_t i = range.begin(); i != range.end(); ++i) {
-      if (stop && stop()) return;
-      try {
-        outcomes[i] = batch.run(jobs[i]);
-      } catch (const Interrupted&) {
-        return;
-      } catch (const files::InputError& error) {
-        outcomes[i].error = error.what();
-      }
-      told(jobs[i], outcomes[i]);
-    }
-  }, tbb::simple_partitioner());
+  tbb::parallel_for(
+      tbb::blocked_range<std::size_t>(0, jobs.size(), 1),
+      [&](const tbb::blocked_range<std::size_t>& range) {
+        for (std::size_t i = range.begin(); i != range.end(); ++i) {
+          if (stop && stop()) return;
+          try {
+            outcomes[i] = batch.run(jobs[i]);
+          } catch (const Interrupted&) {
+            return;
+          } catch (const files::InputError& error) {
+            outcomes[i].error = error.what();
+          }
+          told(jobs[i], outcomes[i]);
+        }
+      },
+      tbb::simple_partitioner());
 
   BatchResult result;
   result.interrupted = stop && stop();

@@ -25,10 +25,10 @@ std::vector<Job> jobs_of(const std::vector<std::string>& paths);
 struct BatchProgress {
   std::size_t done = 0, all = 0;  // materials, those taken over from an earlier run included
   std::size_t taken_over = 0, failed = 0;
-  double seconds = 0;             // since the batch began
-  double seconds_left = 0;        // by the mean of those fitted so far; NaN before the first
-  std::string material;           // the one that has just ended
-  std::string outcome;            // "1.32 % ..." or the error
+  double seconds = 0;       // since the batch began
+  double seconds_left = 0;  // by the mean of those fitted so far; NaN before the first
+  std::string material;     // the one that has just ended
+  std::string outcome;      // "1.32 % ..." or the error
 };
 
 struct BatchResult {

@@ -2,7 +2,6 @@
 
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <atomic>
 #include <cmath>
 #include <csignal>
@@ -10,6 +9,7 @@
 #include <iostream>
 #include <memory>
 #include <sstream>
+#include <CLI/CLI.hpp>
 
 #include "fit/batch.h"
 #include "fit/fit.h"
@@ -52,10 +52,8 @@ void tell(const BatchProgress& p) {
   std::ostringstream line;
   line << p.done << "/" << p.all << "  " << p.material << ": " << p.outcome;
   if (p.done < p.all && std::isfinite(p.seconds_left)) line << "; about " << duration(p.seconds_left) << " left";
-  if (terminal)
-    std::cerr << "\r\x1b[K" << line.str() << (p.done == p.all ? "\n" : "") << std::flush;
-  else
-    std::cerr << line.str() << "\n";
+  if (terminal) std::cerr << "\r\x1b[K" << line.str() << (p.done == p.all ? "\n" : "") << std::flush;
+  else std::cerr << line.str() << "\n";
 }
 
 // A single material that takes more than a moment (every sample of a table: half a minute) says what it is at.
@@ -69,8 +67,9 @@ void end_of_models() {
 void print_candidate(const Candidate& c) {
   const auto error = [](double a, double b) { return std::abs(a - b); };
   const Metrics& m = c.metrics;
-  const double albedo = std::max({error(m.albedo_model.r, m.albedo_reference.r), error(m.albedo_model.g, m.albedo_reference.g),
-                                  error(m.albedo_model.b, m.albedo_reference.b)});
+  const double albedo =
+      std::max({error(m.albedo_model.r, m.albedo_reference.r), error(m.albedo_model.g, m.albedo_reference.g),
+                error(m.albedo_model.b, m.albedo_reference.b)});
   std::cout << "  " << std::left << std::setw(30) << c.label << std::right << std::fixed << std::setprecision(2)
             << std::setw(9) << m.slice_error_pct << " %" << std::setprecision(4) << std::setw(12) << m.slice_log_rms
             << std::setw(12) << m.log_rms_3d << std::setw(12) << albedo << "\n"
@@ -121,8 +120,8 @@ int run_fit(FitOptions& o) {
   std::signal(SIGINT, interrupt);
   std::signal(SIGTERM, interrupt);
   const std::filesystem::path out = o.out;
-  const BatchResult batch = run_batch(jobs, o.fit, out, [] { return interrupted.load(); },
-                                      jobs.size() > 1 ? tell : nullptr, tell_model);
+  const BatchResult batch =
+      run_batch(jobs, o.fit, out, [] { return interrupted.load(); }, jobs.size() > 1 ? tell : nullptr, tell_model);
   if (jobs.size() == 1) end_of_models();
 
   if (batch.interrupted) {
@@ -132,10 +131,8 @@ int run_fit(FitOptions& o) {
   }
   if (jobs.size() == 1) {
     if (!batch.failed.empty()) throw files::InputError(batch.failed.front().message);
-    if (o.json)
-      std::cout << result_json(batch.results.front());
-    else
-      print_result(batch.results.front(), out / jobs.front().name);
+    if (o.json) std::cout << result_json(batch.results.front());
+    else print_result(batch.results.front(), out / jobs.front().name);
     return 0;
   }
   double slice = 0, log = 0;
@@ -149,8 +146,9 @@ int run_fit(FitOptions& o) {
   } else {
     std::cout << batch.rows.size() << " materials fitted";
     if (batch.taken_over > 0) std::cout << " (" << batch.taken_over << " taken over from an earlier run)";
-    std::cout << std::fixed << std::setprecision(2) << "; mean slice error " << slice / count << " %, mean slice log RMS "
-              << std::setprecision(4) << log / count << "\n  overview  " << (out / "index.html").string() << "\n";
+    std::cout << std::fixed << std::setprecision(2) << "; mean slice error " << slice / count
+              << " %, mean slice log RMS " << std::setprecision(4) << log / count << "\n  overview  "
+              << (out / "index.html").string() << "\n";
   }
   for (const FailedFile& f : batch.failed) std::cerr << "likeness: " << f.message << "\n";
   return batch.failed.empty() ? 0 : 3;
@@ -167,29 +165,36 @@ std::string model_list() {
 void add_fit(CLI::App& program, int& exit_code) {
   const auto o = std::make_shared<FitOptions>();
   CLI::App* app = program.add_subcommand(
-      "fit", "Find the parameters of a model that match a measured material, with proof.\n\n"
-             "Fits the standard BRDF slice of each file (MERL .binary, NVIDIA .mbsdf, RGL .bsdf, CSV), then writes a\n"
-             "report to look at, a material file to render with, and all numbers as JSON. A folder is a batch: it can\n"
-             "be interrupted at any moment and goes on where it was when the same command is given again.");
+      "fit",
+      "Find the parameters of a model that match a measured material, with proof.\n\n"
+      "Fits the standard BRDF slice of each file (MERL .binary, NVIDIA .mbsdf, RGL .bsdf, CSV), then writes a\n"
+      "report to look at, a material file to render with, and all numbers as JSON. A folder is a batch: it can\n"
+      "be interrupted at any moment and goes on where it was when the same command is given again.");
   app->add_option("FILE", o->paths, "measured materials, or folders of them")->required();
   app->add_option("--model", o->fit.model, "model to fit: " + model_list())->capture_default_str();
-  app->add_option("--tier", o->tier, "parameters of Callisto to fit: base (artists), advanced (+ tints, second lobe), full (all)")
+  app->add_option("--tier", o->tier,
+                  "parameters of Callisto to fit: base (artists), advanced (+ tints, second lobe), full (all)")
       ->capture_default_str();
-  app->add_option("--on", o->on, "what to fit: slice (the standard slice, as the talk does) or table (every valid sample)")
+  app->add_option("--on", o->on,
+                  "what to fit: slice (the standard slice, as the talk does) or table (every valid sample)")
       ->capture_default_str();
-  app->add_option("--cut", o->fit.cut_deg, "largest angle of light and viewer to the normal that is used [deg]")->capture_default_str();
+  app->add_option("--cut", o->fit.cut_deg, "largest angle of light and viewer to the normal that is used [deg]")
+      ->capture_default_str();
   app->add_option("--loss", o->loss, "log: of 1 + f cos, with what a display shows at half weight; cuberoot: of f cos")
       ->capture_default_str();
-  app->add_option("--starts", o->fit.starts, "searches begun at different places; 0: the model's own number")->capture_default_str();
-  app->add_option("--threads", o->fit.threads, "threads; 0: one a core. The numbers do not depend on it")->capture_default_str();
+  app->add_option("--starts", o->fit.starts, "searches begun at different places; 0: the model's own number")
+      ->capture_default_str();
+  app->add_option("--threads", o->fit.threads, "threads; 0: one a core. The numbers do not depend on it")
+      ->capture_default_str();
   app->add_option("--out", o->out, "folder for reports, material files and numbers")->capture_default_str();
   app->add_flag("--json", o->json, "print the result file (of a batch: its summary) instead of a table");
-  app->footer("Examples\n"
-              "  likeness fit gold.binary\n"
-              "  likeness fit materials/ --out out/all\n"
-              "  likeness fit paint.mbsdf --on table --tier advanced --json\n\n"
-              "Exit codes: 0 done, 2 usage, 3 a file could not be used (a batch goes on past it), 130 interrupted.\n"
-              "What the numbers mean: docs/fit.md");
+  app->footer(
+      "Examples\n"
+      "  likeness fit gold.binary\n"
+      "  likeness fit materials/ --out out/all\n"
+      "  likeness fit paint.mbsdf --on table --tier advanced --json\n\n"
+      "Exit codes: 0 done, 2 usage, 3 a file could not be used (a batch goes on past it), 130 interrupted.\n"
+      "What the numbers mean: docs/fit.md");
   app->callback([o, &exit_code] { exit_code = run_fit(*o); });
 }
 

@@ -14,19 +14,19 @@ namespace likeness::fit {
 // vector of channels (table order, what the kernel takes) the product stands in the tint's three places and
 // the intensity's own place is fixed at 1.
 struct Coordinate {
-  std::string name;           // of the parameter that it sets: the tint, where a product is fitted
-  int color = -1;             // 0, 1, 2 or -1: all channels of the parameter
-  std::vector<int> channels;  // of the model, all set to the coordinate's value
-  double low = 0, high = 1;   // bounds
+  std::string name;                      // of the parameter that it sets: the tint, where a product is fitted
+  int color = -1;                        // 0, 1, 2 or -1: all channels of the parameter
+  std::vector<int> channels;             // of the model, all set to the coordinate's value
+  double low = 0, high = 1;              // bounds
   double start_low = 0, start_high = 1;  // where starts are drawn
-  bool logarithmic = false;   // starts are drawn evenly in the logarithm
-  bool signed_scale = false;  // a product whose channels must share a sign (smooth_terminator)
-  bool reflectance = false;   // base_color: starts are drawn around the data's own diffuse level
+  bool logarithmic = false;              // starts are drawn evenly in the logarithm
+  bool signed_scale = false;             // a product whose channels must share a sign (smooth_terminator)
+  bool reflectance = false;              // base_color: starts are drawn around the data's own diffuse level
 };
 
 struct Coordinates {
-  std::size_t model = 0;              // index in AnyBrdf
-  std::vector<double> fixed;          // channels that no coordinate sets
+  std::size_t model = 0;      // index in AnyBrdf
+  std::vector<double> fixed;  // channels that no coordinate sets
   std::vector<Coordinate> variables;
 
   std::size_t size() const { return variables.size(); }

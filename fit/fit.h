@@ -3,8 +3,8 @@
 #include <functional>
 #include <string>
 
-#include "fit/measured/measured.h"
 #include "fit/interrupted.h"
+#include "fit/measured/measured.h"
 #include "fit/result/result.h"
 
 namespace likeness::fit {
@@ -20,8 +20,7 @@ namespace likeness::fit {
 //             Interrupted when stop() says so.
 // begins      is told the label of each model or tier when its fit begins; empty: nobody.
 Result fit_material(const measured::Material& material, const std::string& name, const Options& options,
-                    const std::function<bool()>& stop = {},
-                    const std::function<void(const std::string&)>& begins = {});
+                    const std::function<bool()>& stop = {}, const std::function<void(const std::string&)>& begins = {});
 
 // Throws files::UsageError, naming the option, its value and what is allowed.
 void check(const Options& options);

@@ -8,8 +8,8 @@
 // float or double, for the best instruction set of the machine it runs on.
 namespace likeness::fit {
 
-inline constexpr int kMaxChannels = 32;     // of any model's parameters together
-inline constexpr std::size_t kLane = 16;    // samples are padded to a multiple of this
+inline constexpr int kMaxChannels = 32;   // of any model's parameters together
+inline constexpr std::size_t kLane = 16;  // samples are padded to a multiple of this
 
 // Weight of the second residual of Loss::kLog, the difference of f and g clamped to [0, 1] as a display shows
 // it, beside the logarithmic one. A purely logarithmic loss gives the shown picture away to gain in the peaks,
@@ -24,21 +24,23 @@ template <class N>
 struct KernelInput {
   const N* to_light[3];
   const N* to_view[3];
-  const N* target[3];      // phi(f cos_i): ln(1 + y) or cbrt(y + offset), by the loss
-  const N* shown[3];       // min(f, 1)
-  const N* root_weight;    // square root of the sample's weight
+  const N* target[3];    // phi(f cos_i): ln(1 + y) or cbrt(y + offset), by the loss
+  const N* shown[3];     // min(f, 1)
+  const N* root_weight;  // square root of the sample's weight
   std::size_t count;
-  std::size_t model;       // index in AnyBrdf
+  std::size_t model;  // index in AnyBrdf
   Loss loss;
   bool derivatives;
   const double* channels;  // parameters in table order; an intensity is folded into its tint (docs/fit.md)
+  bool scatter = false;    // `hessian` gathers (r dr)(r dr)^T in place of dr dr^T: what the residuals' own sizes say of
+                           // the spread of J^T r (uncertainty.h)
 };
 
 // Sums over samples and color channels; derivatives in the order of the channels.
 struct KernelOutput {
-  double loss;                                   // sum of squared residuals
-  double gradient[kMaxChannels];                 // J^T r
-  double hessian[kMaxChannels][kMaxChannels];    // J^T J, both triangles
+  double loss;                                 // sum of squared residuals
+  double gradient[kMaxChannels];               // J^T r
+  double hessian[kMaxChannels][kMaxChannels];  // J^T J (or the scatter), both triangles
 };
 
 // Model values at many pairs of directions, for metrics over whole tables.

@@ -62,10 +62,11 @@ Residual<B> residual(const KernelInput<N>& in, int c, std::size_t i, const B& g,
 
 // Adds curvature d d^T and slope d to the running sums; `h` is a lower triangle, row by row.
 template <int N, class B>
-void accumulate(const Residual<B>& r, const B* d, B* g, B* h) {
+void accumulate(const Residual<B>& r, bool scatter, const B* d, B* g, B* h) {
+  const B weight = scatter ? r.slope * r.slope : r.curvature;
   for (int p = 0; p < N; ++p) {
     g[p] = xsimd::fma(r.slope, d[p], g[p]);
-    const B scaled = r.curvature * d[p];
+    const B scaled = weight * d[p];
     for (int q = 0; q <= p; ++q, ++h) *h = xsimd::fma(scaled, d[q], *h);
   }
 }
@@ -125,7 +126,7 @@ void run_model(const KernelInput<NumberOf<B>>& in, KernelOutput& out) {
         for (int c = 0; c < 3; ++c) {
           const Residual<B> r = residual<B>(in, c, i, f_of[c]->a, g.cos_i);
           loss += r.loss;
-          accumulate<kChannels>(r, f_of[c]->v.data(), sums.gradient, sums.hessian);
+          accumulate<kChannels>(r, in.scatter, f_of[c]->v.data(), sums.gradient, sums.hessian);
         }
       } else {
         const Rgb<B> f = plain.eval(g);
@@ -239,15 +240,16 @@ struct CallistoLoop {
                            f.v[8],
                            f.v[9],
                            f.v[10]};
-          accumulate<15>(r, d, sums[c].gradient, sums[c].hessian);
+          accumulate<15>(r, in.scatter, d, sums[c].gradient, sums[c].hessian);
         }
       }
       out.loss += sum_of(loss);
       if (in.derivatives) {
         for (int c = 0; c < 3; ++c) {
-          const int channel[15] = {kMetallic,       kSpecular,    kRoughness,     kScale,        kOpacity,
-                                   kFresnelFalloff, kFresnelTangent, kRetroFalloff, kRetroTangent, kLength,
-                                   kSpecularFalloff, kBase + c,   kFresnelTint + c, kRetroTint + c, kTerminatorTint + c};
+          const int channel[15] = {kMetallic,        kSpecular,       kRoughness,         kScale,
+                                   kOpacity,         kFresnelFalloff, kFresnelTangent,    kRetroFalloff,
+                                   kRetroTangent,    kLength,         kSpecularFalloff,   kBase + c,
+                                   kFresnelTint + c, kRetroTint + c,  kTerminatorTint + c};
           sums[c].flush(channel, out);
         }
       }
@@ -263,11 +265,16 @@ void evaluate(const KernelInput<NumberOf<B>>& in, KernelOutput& out) {
     for (int q = 0; q < kMaxChannels; ++q) out.hessian[p][q] = 0;
   }
   switch (in.model) {
-    case 0: return CallistoLoop<B>::run(in, out);
-    case 1: return run_model<brdf::Disney2012, B>(in, out);
-    case 2: return run_model<brdf::Ggx, B>(in, out);
-    case 3: return run_model<brdf::Lambert, B>(in, out);
-    case 4: return run_model<brdf::BurleyDiffuse, B>(in, out);
+    case 0:
+      return CallistoLoop<B>::run(in, out);
+    case 1:
+      return run_model<brdf::Disney2012, B>(in, out);
+    case 2:
+      return run_model<brdf::Ggx, B>(in, out);
+    case 3:
+      return run_model<brdf::Lambert, B>(in, out);
+    case 4:
+      return run_model<brdf::BurleyDiffuse, B>(in, out);
   }
 }
 static_assert(std::variant_size_v<brdf::AnyBrdf> == 5, "a model was added: give it a case in each switch of this file");
@@ -316,22 +323,32 @@ template <class B>
 void table(const TableInput& in, TableOutput& out) {
   out = {};
   switch (in.model) {
-    case 0: return table_model<Callisto, B>(in, out);
-    case 1: return table_model<brdf::Disney2012, B>(in, out);
-    case 2: return table_model<brdf::Ggx, B>(in, out);
-    case 3: return table_model<brdf::Lambert, B>(in, out);
-    case 4: return table_model<brdf::BurleyDiffuse, B>(in, out);
+    case 0:
+      return table_model<Callisto, B>(in, out);
+    case 1:
+      return table_model<brdf::Disney2012, B>(in, out);
+    case 2:
+      return table_model<brdf::Ggx, B>(in, out);
+    case 3:
+      return table_model<brdf::Lambert, B>(in, out);
+    case 4:
+      return table_model<brdf::BurleyDiffuse, B>(in, out);
   }
 }
 
 template <class B>
 void values(const ValueInput& in) {
   switch (in.model) {
-    case 0: return model_values<Callisto, B>(in);
-    case 1: return model_values<brdf::Disney2012, B>(in);
-    case 2: return model_values<brdf::Ggx, B>(in);
-    case 3: return model_values<brdf::Lambert, B>(in);
-    case 4: return model_values<brdf::BurleyDiffuse, B>(in);
+    case 0:
+      return model_values<Callisto, B>(in);
+    case 1:
+      return model_values<brdf::Disney2012, B>(in);
+    case 2:
+      return model_values<brdf::Ggx, B>(in);
+    case 3:
+      return model_values<brdf::Lambert, B>(in);
+    case 4:
+      return model_values<brdf::BurleyDiffuse, B>(in);
   }
 }
 

@@ -1,7 +1,7 @@
 #include "fit/levenberg_marquardt.h"
 
-#include <Eigen/Cholesky>
 #include <cmath>
+#include <Eigen/Cholesky>
 
 namespace likeness::fit {
 
@@ -64,8 +64,8 @@ Minimiser::Outcome Minimiser::from(VectorXd x) const {
     scale = here.hessian.diagonal().cwiseMax(0.5 * scale).cwiseMax(1e-12);
     std::vector<bool> held(static_cast<std::size_t>(n));
     for (Index i = 0; i < n; ++i)
-      held[i] = high[i] <= low[i] || (x[i] <= low[i] && here.gradient[i] > 0) ||
-                (x[i] >= high[i] && here.gradient[i] < 0);
+      held[i] =
+          high[i] <= low[i] || (x[i] <= low[i] && here.gradient[i] > 0) || (x[i] >= high[i] && here.gradient[i] < 0);
     bool gained = false;
     while (damping < 1e8) {
       const VectorXd step = step_within(here, x, low, high, damping * scale, held);

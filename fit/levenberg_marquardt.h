@@ -1,8 +1,8 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <functional>
 #include <vector>
+#include <Eigen/Core>
 
 #include "fit/result/result.h"
 
@@ -27,8 +27,8 @@ struct Minimiser {
   std::function<Quadratic(const Eigen::VectorXd& x)> evaluate;
   Eigen::VectorXd low, high;
   int iterations = 60;
-  double tolerance = 1e-6;              // stop when three steps in a row gain less than this part of the loss
-  std::function<bool()> stop = {};      // asked before every step; true ends the search where it is
+  double tolerance = 1e-6;          // stop when three steps in a row gain less than this part of the loss
+  std::function<bool()> stop = {};  // asked before every step; true ends the search where it is
 
   struct Outcome {
     Eigen::VectorXd x;

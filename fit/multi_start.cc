@@ -56,13 +56,11 @@ Begin drawn_begin(const SampleSet& samples, const Coordinates& coordinates, int 
   for (std::size_t i = 0; i < coordinates.size(); ++i) {
     const Coordinate& v = coordinates.variables[i];
     const auto at = static_cast<Eigen::Index>(i);
-    const double u = drawn(start, v.name), low = std::max(v.start_low, b.low[at]), high = std::min(v.start_high, b.high[at]);
-    if (v.reflectance && v.color >= 0)
-      b.x[at] = std::min(level[v.color] * (0.5 + u), 0.95);
-    else if (v.logarithmic)
-      b.x[at] = std::max(low, 1e-3) * std::pow(high / std::max(low, 1e-3), u);
-    else
-      b.x[at] = low + (high - low) * u;
+    const double u = drawn(start, v.name), low = std::max(v.start_low, b.low[at]),
+                 high = std::min(v.start_high, b.high[at]);
+    if (v.reflectance && v.color >= 0) b.x[at] = std::min(level[v.color] * (0.5 + u), 0.95);
+    else if (v.logarithmic) b.x[at] = std::max(low, 1e-3) * std::pow(high / std::max(low, 1e-3), u);
+    else b.x[at] = low + (high - low) * u;
   }
   return b;
 }
@@ -138,7 +136,8 @@ Optimum minimise(const SampleSet& samples, const Coordinates& coordinates, const
   std::vector<Searched> finals;
   std::vector<std::size_t> order(drawn_searches.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) { return drawn_searches[a].loss < drawn_searches[b].loss; });
+  std::ranges::stable_sort(
+      order, [&](std::size_t a, std::size_t b) { return drawn_searches[a].loss < drawn_searches[b].loss; });
   for (const std::size_t i : order) {
     if (static_cast<int>(finals.size()) >= how.finished) break;
     const Searched& s = drawn_searches[i];
@@ -163,13 +162,11 @@ Optimum minimise(const SampleSet& samples, const Coordinates& coordinates, const
   }
 
   // In single precision first, which is twice as fast; the two best of them exactly, and the winner to the end.
-  in_parallel(finals.size(), [&](std::size_t i) {
-    go_on(samples, coordinates, Fineness::kSingle, 35, 2e-4, how.stop, finals[i]);
-  });
+  in_parallel(finals.size(),
+              [&](std::size_t i) { go_on(samples, coordinates, Fineness::kSingle, 35, 2e-4, how.stop, finals[i]); });
   std::ranges::stable_sort(finals, {}, &Searched::loss);
-  in_parallel(std::min<std::size_t>(finals.size(), 2), [&](std::size_t i) {
-    go_on(samples, coordinates, Fineness::kExact, 12, 1e-5, how.stop, finals[i]);
-  });
+  in_parallel(std::min<std::size_t>(finals.size(), 2),
+              [&](std::size_t i) { go_on(samples, coordinates, Fineness::kExact, 12, 1e-5, how.stop, finals[i]); });
   if (how.stop && how.stop()) throw Interrupted{};
   const auto winner = finals.size() > 1 && finals[1].loss < finals[0].loss ? finals.begin() + 1 : finals.begin();
   go_on(samples, coordinates, Fineness::kExact, 40, 1e-6, how.stop, *winner);

@@ -36,7 +36,8 @@ double mean_luminance(const brdf::AnyBrdf& model, const Patch& patch) {
   for (int h = patch.h_low; h < patch.h_high; ++h)
     for (int d = patch.d_low; d < patch.d_high; ++d, ++count) {
       constexpr double kDegree = std::numbers::pi / 180;
-      const auto f = diffuse_of(model, brdf::geometry_at((h + 0.5) * kDegree, (d + 0.5) * kDegree, std::numbers::pi / 2));
+      const auto f =
+          diffuse_of(model, brdf::geometry_at((h + 0.5) * kDegree, (d + 0.5) * kDegree, std::numbers::pi / 2));
       sum += 0.2126 * f.r + 0.7152 * f.g + 0.0722 * f.b;
     }
   return sum / count;
@@ -57,7 +58,9 @@ Pattern pattern_of(const brdf::AnyBrdf& model) {
     pattern.group = "no diffuse reflection";
     return pattern;
   }
-  const auto stops = [&](const Patch& patch) { return std::log2(std::max(mean_luminance(model, patch), kLeast / 16) / middle); };
+  const auto stops = [&](const Patch& patch) {
+    return std::log2(std::max(mean_luminance(model, patch), kLeast / 16) / middle);
+  };
   pattern.fresnel_stops = stops(kTop);
   pattern.retroreflection_stops = stops(kRight);
   pattern.corner_stops = stops(kCorner);

@@ -21,12 +21,9 @@ const char* name_of(Loss l) { return l == Loss::kLog ? "log" : "cuberoot"; }
 
 // What decides the numbers of a fit. Threads do not.
 Json options_json(const Options& o) {
-  return {{"model", o.model},
-          {"tier", brdf::kTierNames[static_cast<std::size_t>(o.tier)]},
-          {"on", name_of(o.on)},
-          {"loss", name_of(o.loss)},
-          {"cut_deg", o.cut_deg},
-          {"starts", o.starts}};
+  return {{"model", o.model},     {"tier", brdf::kTierNames[static_cast<std::size_t>(o.tier)]},
+          {"on", name_of(o.on)},  {"loss", name_of(o.loss)},
+          {"cut_deg", o.cut_deg}, {"starts", o.starts}};
 }
 
 Json metrics_json(const Metrics& m) {
@@ -174,12 +171,9 @@ std::string batch_json(const BatchResult& batch, const std::filesystem::path& ou
                          {"result", (out / (row.material + ".fit.json")).string()},
                          {"report", (out / (row.material + ".html")).string()}});
   for (const FailedFile& f : batch.failed) failed.push_back({{"file", f.source}, {"error", f.message}});
-  const Json j{{"format", "likeness fit batch"},
-               {"version", LIKENESS_VERSION},
-               {"materials", materials},
-               {"failed", failed},
-               {"taken_over", batch.taken_over},
-               {"overview", (out / "index.html").string()}};
+  const Json j{{"format", "likeness fit batch"}, {"version", LIKENESS_VERSION},
+               {"materials", materials},         {"failed", failed},
+               {"taken_over", batch.taken_over}, {"overview", (out / "index.html").string()}};
   return j.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

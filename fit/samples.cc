@@ -76,7 +76,7 @@ void SampleArrays<N>::finish() {
 
 template <class N>
 KernelInput<N> SampleArrays<N>::input(std::size_t model, const double* channels, bool derivatives, std::size_t first,
-                                      std::size_t last) const {
+                                      std::size_t last, bool scatter) const {
   KernelInput<N> in{};
   for (int c = 0; c < 3; ++c) {
     in.to_light[c] = to_light_[c].data() + first;
@@ -89,6 +89,7 @@ KernelInput<N> SampleArrays<N>::input(std::size_t model, const double* channels,
   in.model = model;
   in.loss = loss_;
   in.derivatives = derivatives;
+  in.scatter = scatter;
   in.channels = channels;
   return in;
 }

@@ -25,8 +25,8 @@ class SampleArrays {
   std::size_t padded() const { return root_weight_.size(); }
   double weight_sum() const { return weight_sum_; }
   // The samples [first, last); both multiples of kLane, last at most padded().
-  KernelInput<N> input(std::size_t model, const double* channels, bool derivatives, std::size_t first,
-                       std::size_t last) const;
+  KernelInput<N> input(std::size_t model, const double* channels, bool derivatives, std::size_t first, std::size_t last,
+                       bool scatter = false) const;
 
  private:
   Loss loss_;

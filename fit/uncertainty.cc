@@ -1,16 +1,17 @@
 #include "fit/uncertainty.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+#include <Eigen/Eigenvalues>
 
 namespace likeness::fit {
 
 namespace {
 
 using brdf::Callisto;
+using brdf::squared;
 using Eigen::Index;
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
@@ -28,26 +29,36 @@ std::vector<double> deviations(const SampleSet& samples, const Coordinates& coor
   const auto n = static_cast<Index>(inside.size());
   if (n == 0) return out;
   // Scaled to a unit diagonal, so that what counts as singular does not depend on units.
-  Eigen::MatrixXd m(n, n);
+  const Quadratic spread = objective(samples, coordinates, x, Fineness::kExact, true);
+  Eigen::MatrixXd m(n, n), scatter(n, n);
   for (Index i = 0; i < n; ++i)
-    for (Index j = 0; j < n; ++j)
-      m(i, j) = q.hessian(inside[i], inside[j]) /
-                std::sqrt(q.hessian(inside[i], inside[i]) * q.hessian(inside[j], inside[j]));
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(m);
-  const double count = static_cast<double>(residual_count(samples));
-  const double variance = q.loss / std::max(count - static_cast<double>(n), 1.0);
-  for (Index i = 0; i < n; ++i) {
-    double sum = 0;
-    for (Index k = 0; k < n; ++k) {
-      const double part = eigen.eigenvectors()(i, k) * eigen.eigenvectors()(i, k);
-      // A direction that the data leave free (relative to rounding in J^T J) makes what it moves undetermined.
-      if (eigen.eigenvalues()[k] > 1e-12)
-        sum += part / eigen.eigenvalues()[k];
-      else if (part > 1e-6)
-        sum = kNaN;
+    for (Index j = 0; j < n; ++j) {
+      const double scale = std::sqrt(q.hessian(inside[i], inside[i]) * q.hessian(inside[j], inside[j]));
+      m(i, j) = q.hessian(inside[i], inside[j]) / scale;
+      scatter(i, j) = spread.hessian(inside[i], inside[j]) / scale;
     }
-    out[static_cast<std::size_t>(inside[i])] = std::sqrt(sum * variance / q.hessian(inside[i], inside[i]));
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(m);
+  Eigen::VectorXd reciprocal(n);
+  std::vector<bool> undetermined(static_cast<std::size_t>(n));
+  for (Index k = 0; k < n; ++k) {
+    // A direction that the data leave free (relative to rounding in J^T J) makes what it moves undetermined.
+    const bool free = eigen.eigenvalues()[k] <= 1e-12;
+    reciprocal[k] = free ? 0 : 1 / eigen.eigenvalues()[k];
+    for (Index i = 0; free && i < n; ++i)
+      if (squared(eigen.eigenvectors()(i, k)) > 1e-6) undetermined[static_cast<std::size_t>(i)] = true;
   }
+  const Eigen::MatrixXd inverse = eigen.eigenvectors() * reciprocal.asDiagonal() * eigen.eigenvectors().transpose();
+  const Eigen::MatrixXd covariance = inverse * scatter * inverse;
+  const double count = static_cast<double>(residual_count(samples));
+  const double small_sample = count / std::max(count - static_cast<double>(n), 1.0);
+  // The sums of objective() are divided by 3 sum(weights); of a covariance that is quadratic in the residuals one such
+  // factor is left.
+  const double scale = residual_scale(samples);
+  for (Index i = 0; i < n; ++i)
+    out[static_cast<std::size_t>(inside[i])] =
+        undetermined[static_cast<std::size_t>(i)]
+            ? kNaN
+            : std::sqrt(small_sample * scale * covariance(i, i) / q.hessian(inside[i], inside[i]));
   return out;
 }
 
@@ -73,13 +84,16 @@ std::string reason(const brdf::AnyBrdf& any, const std::string& name) {
   const double base = std::max({m->base_color.r, m->base_color.g, m->base_color.b});
   const bool of_diffuse = name.starts_with("diffuse_fresnel") || name.starts_with("retroreflection");
   if (of_diffuse && base * (1 - m->metallic) < 1e-3) return "there is no diffuse reflection for it to act on";
-  if (name.starts_with("diffuse_fresnel_") && m->diffuse_fresnel == 1) return "diffuse_fresnel is 1: its mask has no effect";
-  if (name.starts_with("retroreflection_") && m->retroreflection == 1) return "retroreflection is 1: its mask has no effect";
+  if (name.starts_with("diffuse_fresnel_") && m->diffuse_fresnel == 1)
+    return "diffuse_fresnel is 1: its mask has no effect";
+  if (name.starts_with("retroreflection_") && m->retroreflection == 1)
+    return "retroreflection is 1: its mask has no effect";
   if (of_diffuse) return "its mask is hardly reached within the cut";
   if (name.starts_with("smooth_terminator_") && m->smooth_terminator == 0) return "smooth_terminator is 0";
   if (name.starts_with("smooth_terminator") && m->smooth_terminator_length < 1e-3) return "its length is 0";
   if (name == "dual_specular_roughness_scale" && m->dual_specular_opacity < 1e-6) return "dual_specular_opacity is 0";
-  if (name == "roughness" && m->dual_specular_opacity > 1 - 1e-6) return "dual_specular_opacity is 1: only its product with the scale counts";
+  if (name == "roughness" && m->dual_specular_opacity > 1 - 1e-6)
+    return "dual_specular_opacity is 1: only its product with the scale counts";
   if (name == "metallic" && base < 1e-3) return "base_color is black";
   if (name == "specular" && m->metallic > 1 - 1e-3) return "metallic is 1: base_color is f0";
   return fallback;

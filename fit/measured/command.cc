@@ -10,7 +10,8 @@ namespace likeness::measured {
 
 void add_convert(CLI::App& program, int& exit_code) {
   auto options = std::make_shared<ConvertOptions>();
-  CLI::App* convert = program.add_subcommand("convert", "Write a measured material as MERL .binary or CSV, and say what was lost");
+  CLI::App* convert =
+      program.add_subcommand("convert", "Write a measured material as MERL .binary or CSV, and say what was lost");
   convert->footer(
       "Reads MERL .binary, NVIDIA .mbsdf, RGL .bsdf (isotropic, RGB) and CSV; the kind is told from the content.\n"
       "\n"
@@ -27,7 +28,8 @@ void add_convert(CLI::App& program, int& exit_code) {
       "\n"
       "Exit codes: 0 done, 2 usage, 3 the input cannot be used (nothing is written), 4 it cannot be written.");
   convert->add_option("IN", options->in, "The measured material")->required();
-  convert->add_option("OUT", options->out, "What to write: a name that ends in .binary or .csv; replaced if it exists")->required();
+  convert->add_option("OUT", options->out, "What to write: a name that ends in .binary or .csv; replaced if it exists")
+      ->required();
   convert->add_flag("--json", options->json, "Print the report as JSON");
   convert->callback([options, &exit_code] { exit_code = run_convert(*options); });
 }

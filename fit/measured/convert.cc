@@ -118,14 +118,16 @@ Conversion convert(const ConvertOptions& options) {
 }
 
 std::string text_of(const Conversion& c, const ConvertOptions& options) {
-  const auto lines = [](const char* title, const std::filesystem::path& file, Format format, const Coverage& k, double share) {
+  const auto lines = [](const char* title, const std::filesystem::path& file, Format format, const Coverage& k,
+                        double share) {
     std::string text = formatted("%s  %s (%s)\n", title, file.string().c_str(), kFormatNames[int(format)].data());
-    text += formatted("  samples    %zu stored, %zu valid (%.1f %%), %.1f %% of all pairs of directions\n", k.stored, k.valid,
-                      percent(k.valid, k.stored), 100 * share);
+    text += formatted("  samples    %zu stored, %zu valid (%.1f %%), %.1f %% of all pairs of directions\n", k.stored,
+                      k.valid, percent(k.valid, k.stored), 100 * share);
     const auto counted = [&](std::size_t n, const char* what) {
       if (n > 0) text += formatted("  %-10zu %s\n", n, what);
     };
-    counted(k.negative, format == Format::kMerl ? "dropped: negative in a channel, not measured" : "dropped: negative in every channel");
+    counted(k.negative, format == Format::kMerl ? "dropped: negative in a channel, not measured"
+                                                : "dropped: negative in every channel");
     counted(k.not_finite, "dropped: NaN or Inf in a channel");
     counted(k.padding, "dropped: copies of the last measured angle in place of data");
     counted(k.repeats, "averaged: more samples of the same directions");
@@ -136,9 +138,12 @@ std::string text_of(const Conversion& c, const ConvertOptions& options) {
                      lines("to  ", options.out, c.to, c.out, c.directions_out);
   text += c.resampled ? "  resampled: every bin holds the source's interpolant at the bin's centre\n"
                       : "  not resampled: every valid sample above the horizon was copied\n";
-  text += formatted("read back at the %zu valid samples of the source:\n  difference  median %.3g %%, worst %.3g %% (of f + 0.001 / sr)\n",
-                    c.compared, c.median_pct, c.worst_pct);
-  text += formatted("  lost        %zu samples (%.2f %%) have no value in what was written\n", c.lost, percent(c.lost, c.compared));
+  text += formatted(
+      "read back at the %zu valid samples of the source:\n  difference  median %.3g %%, worst %.3g %% (of f + 0.001 / "
+      "sr)\n",
+      c.compared, c.median_pct, c.worst_pct);
+  text += formatted("  lost        %zu samples (%.2f %%) have no value in what was written\n", c.lost,
+                    percent(c.lost, c.compared));
   return text;
 }
 

@@ -18,9 +18,9 @@ struct ConvertOptions {
 struct Conversion {
   Coverage in, out;
   Format from = Format::kMerl, to = Format::kMerl;
-  bool resampled = false;        // values were looked up or interpolated at other directions than the stored ones
-  double directions_in = 0;      // share of all pairs of directions above the horizon that the samples stand for [1]
-  double directions_out = 0;     // the same of what was written
+  bool resampled = false;     // values were looked up or interpolated at other directions than the stored ones
+  double directions_in = 0;   // share of all pairs of directions above the horizon that the samples stand for [1]
+  double directions_out = 0;  // the same of what was written
   // The written file, read back and evaluated at every sample of the source: 100 |g - f| / (f + 0.001) of the worst
   // channel, [%].
   double median_pct = 0, worst_pct = 0;

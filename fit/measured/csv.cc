@@ -125,8 +125,10 @@ class Csv final : public Material {
       add_row(cells, rows);
     }
     if (rows.empty())
-      refuse(source, "no valid row among " + std::to_string(coverage_.stored) + " (" + std::to_string(coverage_.negative) +
-             " negative, " + std::to_string(coverage_.not_finite) + " NaN or Inf)", "at least one");
+      refuse(source,
+             "no valid row among " + std::to_string(coverage_.stored) + " (" + std::to_string(coverage_.negative) +
+                 " negative, " + std::to_string(coverage_.not_finite) + " NaN or Inf)",
+             "at least one");
     std::sort(rows.begin(), rows.end(), before);
     average_repeats(rows);
     coverage_.valid = rows.size();
@@ -148,7 +150,8 @@ class Csv final : public Material {
       const std::size_t comma = std::min(line.find(',', from), line.size());
       const std::string_view cell = trimmed(line.substr(from, comma - from));
       from = comma + 1;
-      if (column == columns_) refuse_line("more than " + std::to_string(columns_) + " values", std::to_string(columns_));
+      if (column == columns_)
+        refuse_line("more than " + std::to_string(columns_) + " values", std::to_string(columns_));
       const std::optional<double> value = number_in(cell);
       if (!value) refuse_line("value " + in_quotes(cell) + " in column " + std::to_string(column + 1), "a number");
       cells[column] = *value;
@@ -168,8 +171,9 @@ class Csv final : public Material {
       const double theta = v[c] * to_radians_[c];
       if (theta < 0 || theta > kPi / 2 + 1e-5)
         refuse_line(std::string(kColumns[c]) + " = " + std::to_string(v[c]) + (to_radians_[c] == 1 ? " rad" : " deg"),
-                    to_radians_[c] == 1 ? "0 to 1.5708; for degrees name the column " + std::string(kColumns[c]) + "_deg"
-                                        : "0 to 90");
+                    to_radians_[c] == 1
+                        ? "0 to 1.5708; for degrees name the column " + std::string(kColumns[c]) + "_deg"
+                        : "0 to 90");
       v[c] = std::min(theta, kPi / 2);
     }
     if (place_[kWeight] >= 0 && v[kWeight] < 0) refuse_line("weight = " + std::to_string(v[kWeight]), "0 or more");
@@ -179,7 +183,8 @@ class Csv final : public Material {
     if (all) return;
     coverage_.clipped += any;
     const auto color = [&](Column c) { return float(std::max(v[c], 0.0)); };
-    rows.push_back({{float(v[kThetaI]), float(v[kThetaO]), float(v[kPhi])}, color(kR), color(kG), color(kB), float(v[kWeight])});
+    rows.push_back(
+        {{float(v[kThetaI]), float(v[kThetaO]), float(v[kPhi])}, color(kR), color(kG), color(kB), float(v[kWeight])});
   }
 
   // One row for each run of equal angles: the mean value, the summed weight.
@@ -199,8 +204,8 @@ class Csv final : public Material {
   }
 
   ScatteredSamples samples_;
-  std::array<int, 7> place_{};                  // of each of kColumns in a row, -1 if absent
-  std::array<double, 3> to_radians_{1, 1, 1};   // of the angles
+  std::array<int, 7> place_{};                 // of each of kColumns in a row, -1 if absent
+  std::array<double, 3> to_radians_{1, 1, 1};  // of the angles
   std::size_t columns_ = 0, line_ = 0;
   double scale_ = 1;  // of the stored weights
   Coverage coverage_;

@@ -30,7 +30,8 @@ struct Block {
 // The block whose type and sizes start at byte `at`, whole.
 Block block_at(std::string_view bytes, std::size_t at, const std::string& name) {
   if (bytes.size() - at < 12)
-    refuse(name, std::to_string(bytes.size() - at) + " bytes after the data's heading", "type and two resolutions, 12 bytes");
+    refuse(name, std::to_string(bytes.size() - at) + " bytes after the data's heading",
+           "type and two resolutions, 12 bytes");
   const auto type = number_at<std::uint32_t>(bytes, at), theta = number_at<std::uint32_t>(bytes, at + 4),
              phi = number_at<std::uint32_t>(bytes, at + 8);
   if (type > 1) refuse(name, "data type " + std::to_string(type), "0 (scalar) or 1 (RGB)");
@@ -39,9 +40,10 @@ Block block_at(std::string_view bytes, std::size_t at, const std::string& name) 
            "1 to " + std::to_string(kMostTheta) + " theta and 1 to " + std::to_string(kMostPhi) + " phi");
   const Block block{int(theta), int(phi), type == 1 ? 3 : 1, at + 12};
   if (block.end() > bytes.size())
-    refuse(name, std::to_string(bytes.size()) + " bytes", "at least " + std::to_string(block.end()) + " for " +
-           std::to_string(theta) + " x " + std::to_string(theta) + " x " + std::to_string(phi) + " samples of " +
-           std::to_string(block.channels) + " floats: the file is cut short");
+    refuse(name, std::to_string(bytes.size()) + " bytes",
+           "at least " + std::to_string(block.end()) + " for " + std::to_string(theta) + " x " + std::to_string(theta) +
+               " x " + std::to_string(phi) + " samples of " + std::to_string(block.channels) +
+               " floats: the file is cut short");
   return block;
 }
 
@@ -51,7 +53,8 @@ std::size_t data_heading(std::string_view bytes, const std::string& name) {
   std::size_t at = kMbsdfMagic.size();
   while (!bytes.substr(at).starts_with("MBSDF_DATA")) {
     const std::size_t line_end = bytes.substr(0, kLongestHeader).find('\n', at);
-    if (line_end == std::string_view::npos) refuse(name, "no \"MBSDF_DATA_REFLECTION=\" line", "one after the text lines");
+    if (line_end == std::string_view::npos)
+      refuse(name, "no \"MBSDF_DATA_REFLECTION=\" line", "one after the text lines");
     at = line_end + 1;
   }
   return at;
@@ -78,7 +81,8 @@ class Mbsdf final : public Material {
     const std::string_view rest = bytes.substr(at);
     if (rest.starts_with(kTransmission)) refuse(name, "transmission data only", "reflection data");
     if (!rest.starts_with(kData) && !rest.starts_with(kReflection))
-      refuse(name, "data heading " + in_quotes(rest.substr(0, rest.find('\n'))), "\"MBSDF_DATA=\" or \"MBSDF_DATA_REFLECTION=\"");
+      refuse(name, "data heading " + in_quotes(rest.substr(0, rest.find('\n'))),
+             "\"MBSDF_DATA=\" or \"MBSDF_DATA_REFLECTION=\"");
     at += rest.starts_with(kData) ? kData.size() : kReflection.size();
     const Block block = block_at(bytes, at, name);
     std::size_t end = block.end();
@@ -90,8 +94,10 @@ class Mbsdf final : public Material {
     phi_ = block.phi;
     load(bytes, block);
     if (coverage_.valid == 0)
-      refuse(name, "no valid sample among " + std::to_string(coverage_.stored) + " (" + std::to_string(coverage_.negative) +
-             " negative, " + std::to_string(coverage_.not_finite) + " NaN or Inf)", "at least one");
+      refuse(name,
+             "no valid sample among " + std::to_string(coverage_.stored) + " (" + std::to_string(coverage_.negative) +
+                 " negative, " + std::to_string(coverage_.not_finite) + " NaN or Inf)",
+             "at least one");
   }
 
   bool evaluate(const Direction& to_light, const Direction& to_view, Rgb& f) const override {

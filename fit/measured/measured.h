@@ -28,13 +28,13 @@ struct Sample {
 
 // How much of a file is data.
 struct Coverage {
-  std::size_t stored = 0;    // samples in the file
-  std::size_t valid = 0;     // finite, and not marked invalid, negative or padding
-  std::size_t negative = 0;  // dropped: MERL: negative in any channel, the mark of 'not measured'; others: in all
+  std::size_t stored = 0;      // samples in the file
+  std::size_t valid = 0;       // finite, and not marked invalid, negative or padding
+  std::size_t negative = 0;    // dropped: MERL: negative in any channel, the mark of 'not measured'; others: in all
   std::size_t not_finite = 0;  // dropped: NaN or Inf in a channel
-  std::size_t padding = 0;   // dropped: copies of the last measured angle in place of data (.mbsdf)
-  std::size_t clipped = 0;   // valid, but a channel was negative and reads as 0 (noise, colours out of gamut)
-  std::size_t repeats = 0;   // averaged away: further samples of the same directions (CSV)
+  std::size_t padding = 0;     // dropped: copies of the last measured angle in place of data (.mbsdf)
+  std::size_t clipped = 0;     // valid, but a channel was negative and reads as 0 (noise, colours out of gamut)
+  std::size_t repeats = 0;     // averaged away: further samples of the same directions (CSV)
 };
 
 // An isotropic measured BRDF, whatever file it came from. Immutable once read; reading from several

@@ -39,8 +39,8 @@ Merl::Merl(std::string bytes, std::string name, MerlSize size) : bytes_(std::mov
                        number_at<std::int32_t>(bytes_, 8)};
   if (found != size) refuse(source, "dimensions " + dimensions(found), "MERL's " + dimensions(size));
   if (bytes_.size() != size.bytes())
-    refuse(source, std::to_string(bytes_.size()) + " bytes", wanted + ": the file is " +
-           (bytes_.size() < size.bytes() ? "cut short" : "too long"));
+    refuse(source, std::to_string(bytes_.size()) + " bytes",
+           wanted + ": the file is " + (bytes_.size() < size.bytes() ? "cut short" : "too long"));
   coverage_.stored = size_.bins();
   const std::size_t plane = size_.bins() * 8;
   for (std::size_t i = 0; i < size_.bins(); ++i) {
@@ -54,8 +54,9 @@ Merl::Merl(std::string bytes, std::string name, MerlSize size) : bytes_(std::mov
   }
   coverage_.valid = coverage_.stored - coverage_.not_finite - coverage_.negative;
   if (coverage_.valid == 0)
-    refuse(source, "no valid bin among " + std::to_string(coverage_.stored) + " (" +
-           std::to_string(coverage_.negative) + " negative, " + std::to_string(coverage_.not_finite) + " NaN or Inf)",
+    refuse(source,
+           "no valid bin among " + std::to_string(coverage_.stored) + " (" + std::to_string(coverage_.negative) +
+               " negative, " + std::to_string(coverage_.not_finite) + " NaN or Inf)",
            "at least one");
 }
 
@@ -79,8 +80,8 @@ bool Merl::nearest(const brdf::Geometry<double>& asked, Rgb& f, brdf::Geometry<d
   const std::size_t at = bin(half_angles(asked.to_light, asked.to_view));
   if (!value(at, f)) return false;
   const auto i = static_cast<int>(at);
-  const HalfAngles centre = merl_bin_centre(size_, i / (size_.theta_d * size_.phi_d), i / size_.phi_d % size_.theta_d,
-                                            i % size_.phi_d);
+  const HalfAngles centre =
+      merl_bin_centre(size_, i / (size_.theta_d * size_.phi_d), i / size_.phi_d % size_.theta_d, i % size_.phi_d);
   holds = brdf::geometry_at(centre.theta_h, centre.theta_d, centre.phi_d);
   return true;
 }

@@ -23,7 +23,8 @@ bool looks_like_text(std::string_view bytes) {
 std::unique_ptr<Material> parse(std::string bytes, const std::string& name) {
   const std::string extension = std::filesystem::path(name).extension().string();
   const std::string_view view = bytes;
-  if (bytes.empty()) refuse(name, "an empty file", "a measured material: MERL .binary, NVIDIA .mbsdf, RGL .bsdf or CSV");
+  if (bytes.empty())
+    refuse(name, "an empty file", "a measured material: MERL .binary, NVIDIA .mbsdf, RGL .bsdf or CSV");
   if (view.starts_with(kMbsdfMagic)) return parse_mbsdf(view, name);
   if (view.starts_with(kTensorMagic)) return parse_rgl(view, name);
   // No magic: the extension says what the file was meant to be, so that the message names what is wrong with it.

@@ -40,10 +40,12 @@ class Rgl final : public Material {
     const std::vector<Tensor> tensors = tensors_in(bytes, name);
     const auto has = [&](std::string_view field) { return find(tensors, field) != nullptr; };
     if (has("spectra") && !has("rgb"))
-      refuse(name, "a spectral file (field \"spectra\")", "an RGB one (field \"rgb\"); the database has each material in both forms");
+      refuse(name, "a spectral file (field \"spectra\")",
+             "an RGB one (field \"rgb\"); the database has each material in both forms");
     const Tensor& phi = field(tensors, "phi_i", 1);
     if (phi.size() > 2)
-      refuse(name, "an anisotropic material (" + std::to_string(phi.size()) + " phi_i)", "an isotropic one (1 or 2 phi_i)");
+      refuse(name, "an anisotropic material (" + std::to_string(phi.size()) + " phi_i)",
+             "an isotropic one (1 or 2 phi_i)");
     read_theta(field(tensors, "theta_i", 1));
     ndf_ = map(field(tensors, "ndf", 2), 0);
     sigma_ = map(field(tensors, "sigma", 2), 0);
@@ -51,11 +53,14 @@ class Rgl final : public Material {
     read_colors(field(tensors, "rgb", 5), phi.size());
     const Tensor* jacobian = find(tensors, "jacobian");
     if (jacobian == nullptr || jacobian->real || jacobian->size() != 1)
-      refuse(name, jacobian == nullptr ? "no field \"jacobian\"" : "\"jacobian\" of " + shape_of(*jacobian), "one uint8");
+      refuse(name, jacobian == nullptr ? "no field \"jacobian\"" : "\"jacobian\" of " + shape_of(*jacobian),
+             "one uint8");
     scaled_ = jacobian->data[0] != 0;
     if (coverage_.valid == 0)
-      refuse(name, "no valid sample among " + std::to_string(coverage_.stored) + " (" + std::to_string(coverage_.negative) +
-             " negative, " + std::to_string(coverage_.not_finite) + " NaN or Inf)", "at least one");
+      refuse(name,
+             "no valid sample among " + std::to_string(coverage_.stored) + " (" + std::to_string(coverage_.negative) +
+                 " negative, " + std::to_string(coverage_.not_finite) + " NaN or Inf)",
+             "at least one");
   }
 
   bool evaluate(const Direction& to_light, const Direction& to_view, Rgb& f) const override {
@@ -102,9 +107,11 @@ class Rgl final : public Material {
   // A float field of so many dimensions.
   const Tensor& field(const std::vector<Tensor>& tensors, std::string_view name, std::size_t dimensions) const {
     const Tensor* tensor = find(tensors, name);
-    if (tensor == nullptr) refuse(source, "no field " + in_quotes(name), "phi_i, theta_i, sigma, ndf, vndf, rgb, jacobian");
+    if (tensor == nullptr)
+      refuse(source, "no field " + in_quotes(name), "phi_i, theta_i, sigma, ndf, vndf, rgb, jacobian");
     if (!tensor->real || tensor->shape.size() != dimensions || tensor->size() == 0)
-      refuse(source, in_quotes(name) + " of " + shape_of(*tensor), std::to_string(dimensions) + " dimensions of float32");
+      refuse(source, in_quotes(name) + " of " + shape_of(*tensor),
+             std::to_string(dimensions) + " dimensions of float32");
     return *tensor;
   }
 
@@ -115,7 +122,8 @@ class Rgl final : public Material {
       theta_.push_back(number_at<float>(tensor.data, 4 * i));
       const double before = i == 0 ? -1e-6 : theta_[i - 1];
       if (!(theta_[i] > before) || !(theta_[i] < kPi / 2 + 1e-3))
-        refuse(source, "theta_i[" + std::to_string(i) + "] = " + std::to_string(theta_[i]), "rising angles from 0 to pi / 2");
+        refuse(source, "theta_i[" + std::to_string(i) + "] = " + std::to_string(theta_[i]),
+               "rising angles from 0 to pi / 2");
       theta_[i] = std::max(theta_[i], 0.0);  // a rounding below 0 has no square root
     }
   }
@@ -130,14 +138,16 @@ class Rgl final : public Material {
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       nodes[i] = number_at<float>(tensor.data, 4 * (first + i));
       if (limits && !(nodes[i] >= 0 && nodes[i] < 1e30f))
-        refuse(source, in_quotes(tensor.name) + "[" + std::to_string(first + i) + "] = " + std::to_string(nodes[i]), "a finite number >= 0");
+        refuse(source, in_quotes(tensor.name) + "[" + std::to_string(first + i) + "] = " + std::to_string(nodes[i]),
+               "a finite number >= 0");
     }
     return Map(std::move(nodes), int(width), int(height));
   }
 
   void read_warps(const Tensor& tensor, std::size_t phi) {
     if (tensor.shape[0] != phi || tensor.shape[1] != theta_.size())
-      refuse(source, "\"vndf\" of " + shape_of(tensor), std::to_string(phi) + " phi_i x " + std::to_string(theta_.size()) + " theta_i maps");
+      refuse(source, "\"vndf\" of " + shape_of(tensor),
+             std::to_string(phi) + " phi_i x " + std::to_string(theta_.size()) + " theta_i maps");
     const std::size_t map_size = tensor.shape[2] * tensor.shape[3];
     for (std::size_t t = 0; t < theta_.size(); ++t) {
       const Map nodes = map(tensor, t * map_size);
@@ -149,7 +159,8 @@ class Rgl final : public Material {
 
   void read_colors(const Tensor& tensor, std::size_t phi) {
     if (tensor.shape[0] != phi || tensor.shape[1] != theta_.size() || tensor.shape[2] != 3)
-      refuse(source, "\"rgb\" of " + shape_of(tensor), std::to_string(phi) + " phi_i x " + std::to_string(theta_.size()) + " theta_i x 3 maps");
+      refuse(source, "\"rgb\" of " + shape_of(tensor),
+             std::to_string(phi) + " phi_i x " + std::to_string(theta_.size()) + " theta_i x 3 maps");
     const std::size_t map_size = tensor.shape[3] * tensor.shape[4];
     for (std::size_t m = 0; m < 3 * theta_.size(); ++m) colors_.push_back(map(tensor, m * map_size, false));
     coverage_.stored = theta_.size() * map_size;
@@ -247,8 +258,8 @@ class Rgl final : public Material {
 
   std::vector<double> theta_;
   Map ndf_, sigma_;
-  std::vector<Warp> warps_;   // one a theta_i
-  std::vector<Map> colors_;   // R, G, B of each theta_i; NaN where there is no data
+  std::vector<Warp> warps_;  // one a theta_i
+  std::vector<Map> colors_;  // R, G, B of each theta_i; NaN where there is no data
   bool scaled_ = true;
   Coverage coverage_;
 };

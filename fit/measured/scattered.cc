@@ -20,7 +20,10 @@ struct ScatteredSamples::Search {
   };
 
   explicit Search(const Elevations& at, double reach)
-      : angles{at.theta_i, at.theta_o, at.phi}, sin_i(std::sin(at.theta_i)), sin_o(std::sin(at.theta_o)), limit(reach * reach) {}
+      : angles{at.theta_i, at.theta_o, at.phi},
+        sin_i(std::sin(at.theta_i)),
+        sin_o(std::sin(at.theta_o)),
+        limit(reach * reach) {}
 
   double distance2(double d_i, double d_o, double d_phi, double other_sin_i, double other_sin_o) const {
     const double half_i = std::sin(d_i / 2), half_o = std::sin(d_o / 2), half_phi = std::sin(d_phi / 2);

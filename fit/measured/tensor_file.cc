@@ -47,8 +47,10 @@ std::vector<Tensor> tensors_in(std::string_view bytes, const std::string& name) 
     const auto type = take(std::uint8_t{});
     const auto offset = take(std::uint64_t{});
     if (dimensions > kMostDimensions || type >= std::size(kSizes) || type == 0)
-      refuse(name, "field " + in_quotes(tensor.name) + " of type " + std::to_string(type) + " with " +
-             std::to_string(dimensions) + " dimensions", "a known type and at most 8 dimensions");
+      refuse(name,
+             "field " + in_quotes(tensor.name) + " of type " + std::to_string(type) + " with " +
+                 std::to_string(dimensions) + " dimensions",
+             "a known type and at most 8 dimensions");
     std::uint64_t size = kSizes[type];
     bool fits = offset <= bytes.size();
     for (int d = 0; d < dimensions; ++d) {
@@ -58,8 +60,10 @@ std::vector<Tensor> tensors_in(std::string_view bytes, const std::string& name) 
       size = fits ? size * extent : 0;
     }
     if (!fits || size > bytes.size() - offset)
-      refuse(name, "field " + in_quotes(tensor.name) + " reaches beyond the " + std::to_string(bytes.size()) +
-             " bytes of the file", "all data within it: the file is cut short or damaged");
+      refuse(name,
+             "field " + in_quotes(tensor.name) + " reaches beyond the " + std::to_string(bytes.size()) +
+                 " bytes of the file",
+             "all data within it: the file is cut short or damaged");
     if (type != kUint8 && type != kFloat32) continue;
     tensor.real = type == kFloat32;
     tensor.data = bytes.substr(offset, size);

@@ -56,8 +56,7 @@ class Warp {
     across_.resize(density_.size());
     up_.resize(height);
     for (int y = 0; y < height; ++y)
-      for (int x = 1; x < width; ++x)
-        across(x, y) = across(x - 1, y) + 0.5 * (density(x - 1, y) + density(x, y));
+      for (int x = 1; x < width; ++x) across(x, y) = across(x - 1, y) + 0.5 * (density(x - 1, y) + density(x, y));
     for (int y = 1; y < height; ++y) up_[y] = up_[y - 1] + 0.5 * (marginal(y - 1) + marginal(y));
     total_ = up_.back();
     if (!(total_ > 0)) return;

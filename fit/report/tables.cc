@@ -64,7 +64,8 @@ std::vector<MetricRow> metric_rows(const Result& result) {
   };
   add("Slice error [%]",
       "100 × RMS of clamp01 f − clamp01 g over RGB, f the measurement and g the model in 1/sr, both at "
-      "the directions of the stored value; " + slice,
+      "the directions of the stored value; " +
+          slice,
       Better::kLower, metric(&Metrics::slice_error_pct, 2));
   add("Slice log RMS", "RMS of ln(1 + f cos θi) − ln(1 + g cos θi); " + slice, Better::kLower,
       metric(&Metrics::slice_log_rms, 4));

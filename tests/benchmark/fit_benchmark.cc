@@ -62,7 +62,8 @@ void fit_once(benchmark::State& state, const std::filesystem::path& file, const 
 
 const bool kFitsRegistered = [] {
   const auto add = [](const std::string& name, const std::filesystem::path& file, const std::string& bytes) {
-    benchmark::RegisterBenchmark(("Fit/" + name).c_str(), [file, bytes](benchmark::State& s) { fit_once(s, file, bytes); })
+    benchmark::RegisterBenchmark(("Fit/" + name).c_str(),
+                                 [file, bytes](benchmark::State& s) { fit_once(s, file, bytes); })
         ->MeasureProcessCPUTime()
         ->Unit(benchmark::kMillisecond)
         ->Iterations(1);
@@ -92,8 +93,12 @@ void NormalEquations(benchmark::State& state) {
   if (!(loss < 1e-9)) state.SkipWithError("the loss of a table against its own parameters is not 0");
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(samples.exact.count()));
 }
-BENCHMARK(NormalEquations<&loops::CallistoLoop<Batch>::run>)->Name("NormalEquations/short Jets")->Unit(benchmark::kMillisecond);
-BENCHMARK(NormalEquations<&loops::run_model<brdf::Callisto, Batch>>)->Name("NormalEquations/one Jet")->Unit(benchmark::kMillisecond);
+BENCHMARK(NormalEquations<&loops::CallistoLoop<Batch>::run>)
+    ->Name("NormalEquations/short Jets")
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(NormalEquations<&loops::run_model<brdf::Callisto, Batch>>)
+    ->Name("NormalEquations/one Jet")
+    ->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace likeness::fit

@@ -327,7 +327,7 @@ TEST_F(FitCommand, AnOutputFolderThatCannotBeWrittenIsSaidInOneLine) {
   files::write_whole(folder / "a.mbsdf", small(1));
   files::write_whole(folder / "taken", "a file\n");
   const Ran ran = run(quick(folder / "a.mbsdf", folder / "taken"));
-  EXPECT_EQ(ran.exit_code, 4);
+  EXPECT_EQ(ran.exit_code, 2);
   EXPECT_NE(ran.error.find("cannot be written"), std::string::npos) << ran.error;
   EXPECT_EQ(std::ranges::count(ran.error, '\n'), 1) << ran.error;
   EXPECT_EQ(read(folder / "taken"), "a file\n");

@@ -119,7 +119,8 @@ TEST_F(Convert, RealPaintIsReadAsItsPublishedLayout) {
 TEST_F(Convert, DecodedMerlTableIsReadWithItsInvalidBins) {
   const fs::path tool = shared / "tools/decode_nbrdf.py";
   if (!fs::exists(tool)) GTEST_SKIP() << "no " << tool << ": the shared data is not beside this checkout";
-  if (std::system("/usr/bin/python3 -c 'import numpy' 2>/dev/null") != 0) GTEST_SKIP() << "no numpy; install python3-numpy";
+  if (std::system("/usr/bin/python3 -c 'import numpy' 2>/dev/null") != 0)
+    GTEST_SKIP() << "no numpy; install python3-numpy";
   const std::string make = "/usr/bin/python3 '" + tool.string() + "' '" + folder.string() + "' yellow-plastic";
   ASSERT_EQ(std::system(make.c_str()), 0);
   const auto table = read(folder / "yellow-plastic.binary");

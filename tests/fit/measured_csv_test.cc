@@ -49,7 +49,8 @@ TEST(Csv, TakesRadiansUnlessTheHeaderSaysDegrees) {
   const auto material = parse_csv("phi,r,g,b,theta_o,theta_i\n3.14159265,1,2,3,0.5,0.25\n", "m");
   EXPECT_EQ(at(*material, 0.25 * 180 / kPi, 0.5 * 180 / kPi, 180).b, 3);
   EXPECT_THAT(message_of("theta_i,theta_o,phi,r,g,b\n30,30,0,1,1,1\n"),
-              testing::StartsWith("own.csv:2: theta_i = 30.000000 rad; expected 0 to 1.5708; for degrees name the column theta_i_deg"));
+              testing::StartsWith(
+                  "own.csv:2: theta_i = 30.000000 rad; expected 0 to 1.5708; for degrees name the column theta_i_deg"));
 }
 
 TEST(Csv, DoesNotCareForTheOrderOfRows) {
@@ -100,11 +101,13 @@ TEST(Csv, ReachesAsFarAsTheMetricItStates) {
     // theta_i and theta_o differ by more than the reach, so that the swapped pair is never near.
     const Elevations e{0.7 * unit(random), 0.9 + 0.6 * unit(random), kPi * unit(random)};
     const auto off = [&](double x, double most) { return std::clamp(x + 0.16 * (unit(random) - 0.5), 0.0, most); };
-    const Elevations q{off(e.theta_i, 1.5), off(e.theta_o, 1.5), std::clamp(e.phi + 0.6 * (unit(random) - 0.5), 0.0, kPi)};
+    const Elevations q{off(e.theta_i, 1.5), off(e.theta_o, 1.5),
+                       std::clamp(e.phi + 0.6 * (unit(random) - 0.5), 0.0, kPi)};
     const double distance = distance_by_search(e, q);
     if (std::abs(distance - kCsvReach) < 1e-3) continue;  // the search's own step
-    const auto material = parse_csv("theta_i,theta_o,phi,r,g,b\n" + std::to_string(e.theta_i) + "," + std::to_string(e.theta_o) +
-                                    "," + std::to_string(e.phi) + ",1,1,1\n", "m");
+    const auto material = parse_csv("theta_i,theta_o,phi,r,g,b\n" + std::to_string(e.theta_i) + "," +
+                                        std::to_string(e.theta_o) + "," + std::to_string(e.phi) + ",1,1,1\n",
+                                    "m");
     Direction l, v;
     directions_at(q, l, v);
     Rgb f;
@@ -123,7 +126,8 @@ TEST(Csv, TreeFindsWhatOneSampleAtATimeFinds) {
   std::string all = "theta_i,theta_o,phi,r,g,b\n";
   const std::string header = all;
   for (std::string& row : rows) {
-    row = std::to_string(1.5 * unit(random)) + "," + std::to_string(1.5 * unit(random)) + "," + std::to_string(kPi * unit(random)) + ",1,1,1\n";
+    row = std::to_string(1.5 * unit(random)) + "," + std::to_string(1.5 * unit(random)) + "," +
+          std::to_string(kPi * unit(random)) + ",1,1,1\n";
     all += row;
   }
   const auto together = parse_csv(all, "m");
@@ -154,7 +158,8 @@ TEST(Csv, WeightsAddUpToTwoPiSquaredWithoutAColumnAndAreKeptWithOne) {
     return total;
   };
   const std::string rows = "0.1,0.2,0.3,1,1,1";
-  EXPECT_NEAR(sum("theta_i,theta_o,phi,r,g,b\n" + rows + "\n0.5,0.5,0.5,1,1,1\n"), 4 * kPi * kPi, 1e-5);  // float weights
+  EXPECT_NEAR(sum("theta_i,theta_o,phi,r,g,b\n" + rows + "\n0.5,0.5,0.5,1,1,1\n"), 4 * kPi * kPi,
+              1e-5);  // float weights
   EXPECT_EQ(sum("theta_i,theta_o,phi,r,g,b,weight\n" + rows + ",0.25\n"), 0.25);
 }
 
@@ -162,11 +167,13 @@ TEST(Csv, NamesTheLineOfWhatItRefuses) {
   const std::string header = "theta_i,theta_o,phi,r,g,b\n";
   EXPECT_THAT(message_of(header + "\n0,0,0,1,1\n"), testing::StartsWith("own.csv:3: 5 values; expected 6"));
   EXPECT_THAT(message_of(header + "0,0,0,1,1,1,1\n"), testing::StartsWith("own.csv:2: more than 6 values"));
-  EXPECT_THAT(message_of(header + "0,0,0,1,x,1\n"), testing::StartsWith("own.csv:2: value \"x\" in column 5; expected a number"));
+  EXPECT_THAT(message_of(header + "0,0,0,1,x,1\n"),
+              testing::StartsWith("own.csv:2: value \"x\" in column 5; expected a number"));
   EXPECT_THAT(message_of("theta_i,theta,phi,r,g,b\n"), testing::StartsWith("own.csv:1: column \"theta\""));
   EXPECT_THAT(message_of("theta_i,phi,r,g,b\n"), testing::HasSubstr("no column \"theta_o\""));
   EXPECT_THAT(message_of(header), testing::HasSubstr("no valid row among 0"));
-  EXPECT_THAT(message_of(header + "0,0,0,nan,1,1\n0,0,0,-1,-1,-1\n"), testing::HasSubstr("among 2 (1 negative, 1 NaN or Inf)"));
+  EXPECT_THAT(message_of(header + "0,0,0,nan,1,1\n0,0,0,-1,-1,-1\n"),
+              testing::HasSubstr("among 2 (1 negative, 1 NaN or Inf)"));
   EXPECT_THAT(message_of(""), testing::HasSubstr("no header"));
 }
 

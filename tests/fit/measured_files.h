@@ -76,7 +76,8 @@ inline std::string small_rgl(const RglParts& parts = {}) {
     std::string data;
   };
   std::vector<Field> fields;
-  const auto add = [&](std::string name, std::vector<std::uint64_t> shape, const std::function<float(std::size_t)>& value) {
+  const auto add = [&](std::string name, std::vector<std::uint64_t> shape,
+                       const std::function<float(std::size_t)>& value) {
     std::size_t count = 1;
     for (const auto extent : shape) count *= extent;
     Field field{std::move(name), 10, std::move(shape), {}};

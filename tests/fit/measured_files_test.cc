@@ -29,7 +29,8 @@ TEST(Sha256, MatchesThePublishedVectorsWithAndWithoutInstructions) {
   EXPECT_EQ(files::sha256("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
   EXPECT_EQ(files::sha256("abcdbcdecdefdefgefghfghighijhijkijkljklmklmnlmnomnopnopq"),
             "248d6a61d20638b8e5c026930c3e6039a33ce45964ff2167f6ecedd419db06c1");
-  EXPECT_EQ(files::sha256(std::string(1000000, 'a')), "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0");
+  EXPECT_EQ(files::sha256(std::string(1000000, 'a')),
+            "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0");
   for (const std::size_t n : {1, 55, 56, 63, 64, 65, 119, 120, 128, 1000})
     EXPECT_EQ(files::sha256(std::string(n, 'x')), files::sha256_portable(std::string(n, 'x'))) << n;
 }

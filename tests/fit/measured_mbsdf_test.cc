@@ -78,9 +78,9 @@ TEST(Mbsdf, ClipsANegativeChannelAndDropsAnAllNegativeOrNaNSample) {
   std::string bytes = small_mbsdf();
   const std::size_t first = bytes.size() - 36 * 12;
   const float negative = -1, nan = std::nanf("");
-  std::memcpy(bytes.data() + first + 4, &negative, 4);       // sample 0: green
+  std::memcpy(bytes.data() + first + 4, &negative, 4);                                       // sample 0: green
   for (int c = 0; c < 3; ++c) std::memcpy(bytes.data() + first + 12 + 4 * c, &negative, 4);  // sample 1: all
-  std::memcpy(bytes.data() + first + 24, &nan, 4);           // sample 2: red
+  std::memcpy(bytes.data() + first + 24, &nan, 4);                                           // sample 2: red
   const auto material = parse_mbsdf(bytes, "m");
   EXPECT_EQ(material->coverage().clipped, 1u);
   EXPECT_EQ(material->coverage().negative, 1u);
@@ -88,7 +88,9 @@ TEST(Mbsdf, ClipsANegativeChannelAndDropsAnAllNegativeOrNaNSample) {
   EXPECT_EQ(material->coverage().valid, 34u);
   bool first_sample = true;
   material->for_each_sample([&](const Sample& s) {
-    if (first_sample) { EXPECT_EQ(s.f.g, 0); }
+    if (first_sample) {
+      EXPECT_EQ(s.f.g, 0);
+    }
     first_sample = false;
   });
 }
@@ -116,7 +118,8 @@ TEST(Mbsdf, RefusesHugeDeclaredDimensions) {
     parse_mbsdf(bytes, "paint.mbsdf");
     FAIL() << "accepted";
   } catch (const InputError& error) {
-    EXPECT_STREQ(error.what(), "paint.mbsdf: resolution 4294967295 theta, 4 phi; expected 1 to 720 theta and 1 to 1440 phi");
+    EXPECT_STREQ(error.what(),
+                 "paint.mbsdf: resolution 4294967295 theta, 4 phi; expected 1 to 720 theta and 1 to 1440 phi");
   }
 }
 

@@ -84,7 +84,9 @@ TEST(Merl, IsReciprocalBecausePhiDIsTakenModuloPi) {
     Rgb f, g;
     const bool there = merl->evaluate(l, v, f), back = merl->evaluate(v, l, g);
     ASSERT_EQ(there, back);
-    if (there) { ASSERT_EQ(f.r, g.r) << "sample " << i; }
+    if (there) {
+      ASSERT_EQ(f.r, g.r) << "sample " << i;
+    }
   }
 }
 
@@ -97,16 +99,16 @@ TEST(Merl, WeightsOfAllPairsAboveTheHorizonAddUpToTwoPiSquared) {
     ASSERT_GT(s.weight, 0);
   });
   EXPECT_NEAR(total / (4 * kPi * kPi), 1, 5e-4);  // bins that the horizon cuts count whole or not: 1e-4 measured
-  EXPECT_NEAR(lambert / kPi, 1, 5e-4);            // integral of cos cos / pi = pi: the density is right, not only its sum
+  EXPECT_NEAR(lambert / kPi, 1, 5e-4);  // integral of cos cos / pi = pi: the density is right, not only its sum
 }
 
 TEST(Merl, DropsABinThatIsNegativeInOneChannelAndCountsNaN) {
   std::string bytes = test::small_merl();
   const auto before = parse_merl(bytes, "m", kSmallMerl)->coverage();
   const double negative = -0.5, nan = std::nan(""), inf = std::numeric_limits<double>::infinity();
-  std::memcpy(bytes.data() + 12 + kSmallMerl.bins() * 8, &negative, 8);  // bin 0, green
-  std::memcpy(bytes.data() + 12 + 8, &nan, 8);                           // bin 1, red
-  std::memcpy(bytes.data() + 12 + kSmallMerl.bins() * 16 + 16, &inf, 8); // bin 2, blue
+  std::memcpy(bytes.data() + 12 + kSmallMerl.bins() * 8, &negative, 8);   // bin 0, green
+  std::memcpy(bytes.data() + 12 + 8, &nan, 8);                            // bin 1, red
+  std::memcpy(bytes.data() + 12 + kSmallMerl.bins() * 16 + 16, &inf, 8);  // bin 2, blue
   const auto merl = parse_merl(bytes, "m", kSmallMerl);
   EXPECT_EQ(merl->coverage().negative, before.negative + 1);
   EXPECT_EQ(merl->coverage().not_finite, 2u);
@@ -121,7 +123,8 @@ TEST(Merl, DropsABinThatIsNegativeInOneChannelAndCountsNaN) {
 TEST(Merl, RefusesAFileOneByteShortOrLong) {
   const std::string bytes = test::small_merl();
   EXPECT_THAT(message_of([&] { parse_merl(bytes.substr(0, bytes.size() - 1), "a.binary", kSmallMerl); }),
-              testing::AllOf(testing::StartsWith("a.binary: 1739 bytes"), testing::HasSubstr("1740"), testing::HasSubstr("cut short")));
+              testing::AllOf(testing::StartsWith("a.binary: 1739 bytes"), testing::HasSubstr("1740"),
+                             testing::HasSubstr("cut short")));
   EXPECT_THAT(message_of([&] { parse_merl(bytes + "x", "a.binary", kSmallMerl); }), testing::HasSubstr("too long"));
 }
 
@@ -131,7 +134,10 @@ TEST(Merl, RefusesOtherDimensionsAndNamesThem) {
 }
 
 TEST(Merl, RefusesATableWithoutAValidBin) {
-  EXPECT_THAT(message_of([&] { parse_merl(merl_bytes(std::vector<Rgb>(kSmallMerl.bins(), Rgb(-1)), kSmallMerl), "a.binary", kSmallMerl); }),
+  EXPECT_THAT(message_of([&] {
+                parse_merl(merl_bytes(std::vector<Rgb>(kSmallMerl.bins(), Rgb(-1)), kSmallMerl), "a.binary",
+                           kSmallMerl);
+              }),
               testing::HasSubstr("no valid bin among 72 (72 negative"));
 }
 

@@ -68,8 +68,10 @@ TEST(Rgl, ReturnsStoredValuesAtItsSamples) {
 
 TEST(Rgl, WeightsCoverAllButTheLastThetaI) {
   double total = 0;
-  parse_rgl(small_rgl({.theta = 9, .map = 16, .colors = 16}), "m")->for_each_sample([&](const Sample& s) { total += s.weight; });
-  const double last = std::cos((7.5 / 8) * kPi / 2);  // from half way to the last of nine theta_i
+  parse_rgl(small_rgl({.theta = 9, .map = 16, .colors = 16}), "m")->for_each_sample([&](const Sample& s) {
+    total += s.weight;
+  });
+  const double last = std::cos((7.5 / 8) * kPi / 2);     // from half way to the last of nine theta_i
   EXPECT_NEAR(total / (4 * kPi * kPi), 1 - last, 0.01);  // solid angles are sums over two grids
 }
 
@@ -82,7 +84,8 @@ TEST(Rgl, RefusesAnisotropicAndSpectralFilesByName) {
     }
     return std::string("accepted");
   };
-  EXPECT_EQ(message({.phi = 3}), "silk.bsdf: an anisotropic material (3 phi_i); expected an isotropic one (1 or 2 phi_i)");
+  EXPECT_EQ(message({.phi = 3}),
+            "silk.bsdf: an anisotropic material (3 phi_i); expected an isotropic one (1 or 2 phi_i)");
   EXPECT_THAT(message({.color_name = "spectra"}), testing::HasSubstr("spectral file"));
 }
 
@@ -108,7 +111,9 @@ TEST(Rgl, TakesAFirstThetaIThatIsARoundingBelowZero) {
   std::uint64_t offset = 0;
   std::memcpy(&offset, bytes.data() + header, 8);
   std::memcpy(bytes.data() + offset, &below, 4);
-  parse_rgl(bytes, "m")->for_each_sample([](const Sample& s) { ASSERT_TRUE(std::isfinite(s.weight) && std::isfinite(s.f.r)); });
+  parse_rgl(bytes, "m")->for_each_sample([](const Sample& s) {
+    ASSERT_TRUE(std::isfinite(s.weight) && std::isfinite(s.f.r));
+  });
 }
 
 TEST(Rgl, RefusesNaNInItsParametrisationAndDropsItInItsColors) {

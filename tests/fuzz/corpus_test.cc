@@ -25,7 +25,8 @@ TEST(Corpus, EveryFileIsReadOrRefused) {
   for (const auto& entry : std::filesystem::recursive_directory_iterator(LIKENESS_CORPUS_DIR)) {
     if (!entry.is_regular_file()) continue;
     SCOPED_TRACE(entry.path().string());
-    EXPECT_NO_THROW(feed(entry.path().parent_path().filename().string(), likeness::files::read_whole(entry.path(), 1 << 20)));
+    EXPECT_NO_THROW(
+        feed(entry.path().parent_path().filename().string(), likeness::files::read_whole(entry.path(), 1 << 20)));
     ++files;
   }
   EXPECT_GE(files, 8);
