@@ -210,8 +210,8 @@ class Rgl final : public Material {
     const auto add = [&](const Point2& u, const Point2& s, double density) {
       const Pair pair = pair_at(t, u);
       if (!(pair.to_view.z > 0)) return;
-      int x = int(s.x * (width - 1) + 0.5);
-      const int y = int(s.y * (height - 1) + 0.5);
+      int x = int(std::lround(s.x * (width - 1)));
+      const int y = int(std::lround(s.y * (height - 1)));
       while (x > 0 && !above[std::size_t(y) * width + x]) --x;
       sums[std::size_t(y) * width + x] += pair.measure / (in_u + in_s * density);
     };
