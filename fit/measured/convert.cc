@@ -120,8 +120,8 @@ Conversion convert(const ConvertOptions& options) {
 std::string text_of(const Conversion& c, const ConvertOptions& options) {
   const auto lines = [](const char* title, const std::filesystem::path& file, Format format, const Coverage& k,
                         double share) {
-    std::string text = formatted("%s  %s (%s)\n", title, file.string().c_str(),
-                                 std::string(kFormatNames[int(format)]).c_str());
+    std::string text =
+        formatted("%s  %s (%s)\n", title, file.string().c_str(), std::string(kFormatNames[int(format)]).c_str());
     text += formatted("  samples    %zu stored, %zu valid (%.1f %%), %.1f %% of all pairs of directions\n", k.stored,
                       k.valid, percent(k.valid, k.stored), 100 * share);
     const auto counted = [&](std::size_t n, const char* what) {
