@@ -40,6 +40,17 @@ std::string percent(double value) {
   return out.str();
 }
 
+// Said before anything is fitted. Nothing is made: a refused input leaves no folder.
+void require_writable(const fs::path& out) {
+  fs::path there = fs::absolute(out);
+  std::error_code cause;
+  while (!fs::exists(there, cause) && there.has_relative_path()) there = there.parent_path();
+  if (!fs::is_directory(there, cause) || access(there.c_str(), W_OK) != 0)
+    throw files::UsageError("--out " + out.string() + " cannot be written: " + there.string() +
+                            (fs::is_directory(there, cause) ? " is not writable" : " is not a folder") +
+                            "; name a folder that can");
+}
+
 // What one job leaves behind: a row of the overview, or why there is none.
 struct Outcome {
   std::optional<OverviewRow> row;
@@ -140,11 +151,7 @@ BatchResult run_batch(const std::vector<Job>& jobs, const Options& options, cons
                       const std::function<bool()>& stop, const std::function<void(const BatchProgress&)>& tell,
                       const std::function<void(const std::string&)>& begins) {
   check(options);
-  std::error_code cause;
-  fs::create_directories(out, cause);
-  if (cause || access(out.c_str(), W_OK) != 0)
-    throw files::UsageError("--out " + out.string() + " cannot be written to (" +
-                            (cause ? cause.message() : "no permission") + "); name a folder that can");
+  require_writable(out);
   const std::function<void(const std::string&)> nobody;
   const tbb::global_control threads(
       tbb::global_control::max_allowed_parallelism,
