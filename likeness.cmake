@@ -1,6 +1,7 @@
 # The one way a room declares its library, and a test its program:
 #
-#   likeness_library(measured SOURCES merl.cc read.cc NEEDS likeness::brdf likeness::files [WITH Ceres::ceres])
+#   likeness_library(measured SOURCES merl.cc read.cc NEEDS likeness::brdf likeness::files [WITH Ceres::ceres]
+#                    [FOLDERS of further headers])
 #   likeness_test(measured_test SOURCES merl_test.cc NEEDS likeness::measured [WITH TBB::tbb] [TIMEOUT 120])
 #
 # NEEDS names rooms, which is the order of the house (tests/house/layout_test reads it from these lines); WITH names
@@ -34,7 +35,7 @@ if(PROJECT_IS_TOP_LEVEL)
 endif()
 
 function(likeness_library name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;NEEDS;WITH")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;NEEDS;WITH;FOLDERS")
   set(target likeness_${name})
   if(arg_SOURCES)
     add_library(${target} STATIC ${arg_SOURCES})
@@ -54,11 +55,14 @@ function(likeness_library name)
 
   # Each room is a component of the package, with an export of its own, so that one can be installed alone.
   file(RELATIVE_PATH folder ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR})
-  file(GLOB headers CONFIGURE_DEPENDS *.h)
   install(TARGETS ${target} EXPORT likeness-${name}-targets ARCHIVE COMPONENT ${name})
   install(EXPORT likeness-${name}-targets NAMESPACE likeness:: COMPONENT ${name}
           DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/likeness)
-  install(FILES ${headers} COMPONENT ${name} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/likeness/${folder})
+  foreach(inner . ${arg_FOLDERS})
+    file(GLOB headers CONFIGURE_DEPENDS ${inner}/*.h)
+    cmake_path(SET at NORMALIZE ${CMAKE_INSTALL_INCLUDEDIR}/likeness/${folder}/${inner})
+    install(FILES ${headers} COMPONENT ${name} DESTINATION ${at})
+  endforeach()
 
   # What likeness-config.cmake looks for: the rooms below, and the package of each imported target.
   list(TRANSFORM arg_NEEDS REPLACE "^likeness::" "")

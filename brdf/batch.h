@@ -19,6 +19,12 @@ struct Arithmetic<xsimd::batch<T, A>> {
   static Batch pick(const xsimd::batch_bool<T, A>& mask, const Batch& a, const Batch& b) {
     return xsimd::select(mask, a, b);
   }
+  static Batch at(const float* table, const Batch& index) {
+    alignas(64) T lanes[Batch::size];
+    index.store_aligned(lanes);
+    for (std::size_t i = 0; i < Batch::size; ++i) lanes[i] = T(table[static_cast<int>(lanes[i])]);
+    return Batch::load_aligned(lanes);
+  }
   static Batch power(const Batch& x, const Batch& e) {
     Batch log_x;
     return power(x, e, log_x);

@@ -38,6 +38,7 @@ S burley_at_grazing(const S& roughness, const T& cos_d) {
 template <Scalar S>
 struct BurleyDiffuse {
   static constexpr std::string_view kName = "burley_diffuse";
+  static constexpr std::string_view kText = "diffuse of Burley 2012, with a retroreflective rise by roughness";
   // clang-format off
   static constexpr std::array kParameters{
       Parameter{.name = "base_color", .initial = 0.5, .range = {0, 1}, .typical = {0.02, 0.9},

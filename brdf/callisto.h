@@ -29,6 +29,8 @@ namespace likeness::brdf {
 template <Scalar S>
 struct Callisto {
   static constexpr std::string_view kName = "callisto";
+  static constexpr std::string_view kText =
+      "diffuse shaped in half-angle space, two GGX lobes, and a smooth terminator";
   // clang-format off
   static constexpr std::array kParameters{
       Parameter{.name = "base_color", .initial = 0.5, .range = {0, 1}, .typical = {0.02, 0.9},

@@ -65,6 +65,7 @@ S ggx_masking(const S& alpha, const T& c) {
 template <Scalar S>
 struct Disney2012 {
   static constexpr std::string_view kName = "disney2012";
+  static constexpr std::string_view kText = "the principled model of Burley 2012";
   // clang-format off
   static constexpr std::array kParameters{
       Parameter{.name = "base_color", .initial = 0.5, .range = {0, 1}, .typical = {0.02, 0.9},

@@ -1,8 +1,12 @@
 #pragma once
 
+#include <cstddef>
+
 #include "brdf/vector.h"
 
 namespace likeness::brdf {
+
+inline constexpr std::size_t kGeometryColumns = 16;  // the plain numbers of a Geometry
 
 // A pair of directions and every angle of it that the models read, computed once and without
 // cancellation: sin theta_d = |l - v| / 2 and cos theta_d = |l + v| / 2 for unit l and v, and
@@ -51,6 +55,28 @@ struct Geometry {
         cos_d(T(g.cos_d)),
         versine_d(T(g.versine_d)),
         above(g.above) {}
+
+  // As kGeometryColumns numbers, for tables and streams, and back without loss.
+  void to_columns(T* out) const {
+    const T all[]{to_light.x, to_light.y, to_light.z, to_view.x, to_view.y, to_view.z, half.x, half.y,
+                  half.z,     cos_i,      cos_o,      cos_h,     sin2_h,    versine_h, cos_d,  versine_d};
+    for (std::size_t i = 0; i < kGeometryColumns; ++i) out[i] = all[i];
+  }
+  static Geometry from_columns(const T* in) { return Geometry(in); }
+
+ private:
+  explicit Geometry(const T* in)
+      : to_light(in[0], in[1], in[2]),
+        to_view(in[3], in[4], in[5]),
+        half(in[6], in[7], in[8]),
+        cos_i(in[9]),
+        cos_o(in[10]),
+        cos_h(in[11]),
+        sin2_h(in[12]),
+        versine_h(in[13]),
+        cos_d(in[14]),
+        versine_d(in[15]),
+        above(both(greater(in[9], T(0)), greater(in[10], T(0)))) {}
 };
 
 // The pair of half-angle coordinates (radians), with the half vector in the x-z plane:

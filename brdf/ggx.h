@@ -53,6 +53,7 @@ T schlick_weight(const T& versine_d) {
 template <Scalar S>
 struct Ggx {
   static constexpr std::string_view kName = "ggx";
+  static constexpr std::string_view kText = "one GGX lobe of microfacets with Schlick Fresnel";
   // clang-format off
   static constexpr std::array kParameters{
       Parameter{.name = "f0", .initial = 0.04, .range = {0, 1}, .typical = {0.02, 0.9},

@@ -25,6 +25,8 @@ struct Arithmetic<ceres::Jet<T, N>> {
     }
   }
 
+  static Jet at(const float* table, const Jet& index) { return Jet(Arithmetic<T>::at(table, index.a)); }
+
   // d(x^e) = x^e ln x de + e x^(e - 1) dx, both taken as 0 where x is 0 (dx would be infinite for e < 1).
   static Jet power(const Jet& x, const Jet& e) { return with_slope(power(x.a, e), e.a, x); }
   static Jet power(const T& x, const Jet& e) {

@@ -16,6 +16,7 @@ namespace likeness::brdf {
 template <Scalar S>
 struct Lambert {
   static constexpr std::string_view kName = "lambert";
+  static constexpr std::string_view kText = "perfectly diffuse reflection, rho / pi";
   // clang-format off
   static constexpr std::array kParameters{
       Parameter{.name = "base_color", .initial = 0.5, .range = {0, 1}, .typical = {0.02, 0.9},

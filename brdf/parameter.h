@@ -19,6 +19,10 @@ enum class Role {
   kTint,   // a color in [0, 1] that multiplies the scale named by `tints`
   kShape,  // a roughness, a falloff, a length: enters non-linearly
   kMix,    // a weight between two terms
+  // Of inputs that are no parameters of a material:
+  kDirection,  // a component of a unit vector: x, y and z follow one another
+  kAngle,      // an angle or an azimuth
+  kCoordinate  // a position, a random number, a wavelength
 };
 
 // The smallest set of parameters in which this one is exposed (Callisto slides, 'parameters'). A fit of
@@ -38,7 +42,8 @@ struct Parameter {
   Tier tier = Tier::kPlain;
   int channels = 1;  // 3: linear RGB
   std::string_view tints = {};
-  std::string_view text;  // one line for help and docs
+  bool logarithmic = false;  // drawn and plotted by its logarithm
+  std::string_view text;     // one line for help and docs
 };
 
 void no_such_parameter();  // not constexpr and nowhere defined: what calls it while compiling does not compile

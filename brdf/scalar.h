@@ -23,11 +23,21 @@ concept Scalar = requires(S a, S b) {
 };
 
 using std::abs;
+using std::acos;
+using std::asin;
+using std::atan;
+using std::atan2;
+using std::cbrt;
 using std::cos;
 using std::exp;
+using std::expm1;
+using std::floor;
 using std::log;
+using std::log1p;
 using std::sin;
 using std::sqrt;
+using std::tan;
+using std::tanh;
 
 // What a kind of scalar brings of its own. This is the plain number; Jets and batches specialise it.
 template <class S>
@@ -36,6 +46,7 @@ struct Arithmetic {
   using Value = S;   // what remains when derivatives are dropped
   static const Value& value(const S& x) { return x; }
   static S pick(bool mask, const S& a, const S& b) { return mask ? a : b; }
+  static S at(const float* table, S index) { return S(table[static_cast<int>(index)]); }
   static S power(S x, S e) { return e > S(0) ? (x > S(0) ? S(std::pow(x, e)) : S(0)) : S(1); }
   static S power5(S x, S r) { return r == S(1) ? x * x * x * x * x : power(x, S(5) * r); }
   // The same, with ln x (0 where x is 0), which a derivative needs as well.
@@ -79,6 +90,12 @@ M either(const M& a, const M& b) {
 template <class M, class S>
 S pick(const M& mask, const S& a, const S& b) {
   return Arithmetic<S>::pick(mask, a, b);
+}
+
+// table[index] for an index that is a whole number within the table.
+template <Scalar S>
+S at(const float* table, const S& index) {
+  return Arithmetic<S>::at(table, index);
 }
 
 template <Scalar S>

@@ -1,35 +1,12 @@
-#include <fstream>
-#include <map>
 #include <sstream>
 #include <string>
 #include <vector>
 
-#include "tests/brdf/kinds.h"
+#include "tests/brdf/evaluator_row.h"
 
 // The models against values computed with 40 digits, and against formulas written independently.
 namespace likeness::brdf {
 namespace {
-
-using Row = std::map<std::string, double>;
-
-// Columns by name. Empty if there is no such file.
-std::vector<Row> read_reference(const std::string& name) {
-  std::ifstream file(std::string(LIKENESS_SHARED_DIR) + "/reference/" + name);
-  std::vector<std::string> names;
-  std::vector<Row> rows;
-  for (std::string line, cell; std::getline(file, line);) {
-    if (line.ends_with('\r')) line.pop_back();
-    std::istringstream cells(line);
-    if (names.empty()) {
-      while (std::getline(cells, cell, ',')) names.push_back(cell);
-    } else {
-      Row row;
-      for (std::size_t i = 0; std::getline(cells, cell, ','); ++i) row[names.at(i)] = std::stod(cell);
-      rows.push_back(row);
-    }
-  }
-  return rows;
-}
 
 template <class S>
 class Reference : public ::testing::Test {

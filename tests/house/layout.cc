@@ -82,7 +82,7 @@ std::map<std::string, Room> rooms_of(const Tree& tree) {
       words >> name;
       Room room{folder_of(path), {}};
       while (words >> word) {
-        if (is_one_of(word, {"SOURCES", "NEEDS", "WITH"})) list = word;
+        if (is_one_of(word, {"SOURCES", "NEEDS", "WITH", "FOLDERS"})) list = word;
         else if (list == "NEEDS") room.needs.push_back(word.substr(word.rfind(':') + 1));
       }
       rooms[name] = room;
@@ -218,8 +218,12 @@ std::vector<std::string> unguarded_headers(const Tree& tree) {
 std::vector<std::string> foreign_includes_of_brdf(const Tree& tree) {
   std::vector<std::string> faults;
   const std::regex include(R"(^\s*#\s*include\s+<([^>]+)>)"), allowed("[a-z_]+|glm/.*");
+  const auto rooms = rooms_of(tree);
   for (const auto& [path, content] : tree) {
-    if (!is_cpp(path) || !path.starts_with("brdf/") || path == "brdf/jet.h" || path == "brdf/batch.h") continue;
+    const std::string room = path.starts_with("brdf/") ? room_of(rooms, path) : "";
+    if (!is_cpp(path) || (room != "brdf" && !(room.empty() && path.starts_with("brdf/"))) || path == "brdf/jet.h" ||
+        path == "brdf/batch.h")
+      continue;
     const auto lines = lines_of(content);
     for (std::size_t i = 0; i < lines.size(); ++i) {
       std::smatch match;
