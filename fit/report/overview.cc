@@ -4,11 +4,18 @@
 #include <cmath>
 #include <map>
 
-#include "fit/report/html.h"
 #include "fit/report/slice.h"
 #include "render/image/write.h"
+#include "render/page/html.h"
 
 namespace likeness::fit {
+
+using page::base64;
+using page::escape;
+using page::fixed;
+using page::number;
+using page::page_foot;
+using page::page_head;
 namespace {
 
 double mean(const std::vector<double>& values) {

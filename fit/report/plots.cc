@@ -4,42 +4,39 @@
 #include <cmath>
 #include <numbers>
 
-#include "fit/report/html.h"
 #include "fit/report/slice.h"
 #include "render/image/write.h"
+#include "render/page/html.h"
+#include "render/page/svg.h"
 
 namespace likeness::fit {
+
+using page::drawing;
+using page::number;
+using page::plain;
+using page::png_data_url;
+using page::svg_line;
+using page::svg_text;
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kLeft = 34, kTop = 6;  // of the slice's 90 x 90 units in its drawing
-
-std::string text(double x, double y, std::string_view anchor, std::string_view content, double size = 8,
-                 std::string_view more = "") {
-  return "<text x=\"" + number(x, 5) + "\" y=\"" + number(y, 5) + "\" font-size=\"" + number(size) +
-         "\" text-anchor=\"" + std::string(anchor) + "\"" + std::string(more) + ">" + std::string(content) + "</text>";
-}
-
-std::string line(double x1, double y1, double x2, double y2, std::string_view style) {
-  return "<line x1=\"" + number(x1, 5) + "\" y1=\"" + number(y1, 5) + "\" x2=\"" + number(x2, 5) + "\" y2=\"" +
-         number(y2, 5) + "\" " + std::string(style) + "/>";
-}
 
 std::string slice_axes() {
   std::string out =
       "<rect x=\"34\" y=\"6\" width=\"90\" height=\"90\" fill=\"none\" stroke=\"#555\" stroke-width=\".7\"/>";
   for (const int degrees : {0, 30, 60, 90}) {
     const double x = kLeft + degrees, y = kTop + 90 - degrees;
-    out += line(x, 96, x, 98.5, "stroke=\"#555\" stroke-width=\".7\"");
-    out += line(31.5, y, 34, y, "stroke=\"#555\" stroke-width=\".7\"");
-    out += text(x, 106, "middle", std::to_string(degrees) + "°");
-    out += text(30, y + 3, "end", std::to_string(degrees) + "°");
+    out += svg_line(x, 96, x, 98.5, "stroke=\"#555\" stroke-width=\".7\"");
+    out += svg_line(31.5, y, 34, y, "stroke=\"#555\" stroke-width=\".7\"");
+    out += svg_text(x, 106, "middle", std::to_string(degrees) + "°");
+    out += svg_text(30, y + 3, "end", std::to_string(degrees) + "°");
   }
-  out += text(79, 116, "middle",
-              "θ<tspan font-size=\"6\" dy=\"2\">h</tspan><tspan dy=\"-2\">: half vector to normal</tspan>", 7.5);
-  out +=
-      text(8, 51, "middle", "θ<tspan font-size=\"6\" dy=\"2\">d</tspan><tspan dy=\"-2\">: half vector to light</tspan>",
-           7.5, " transform=\"rotate(-90 8 51)\"");
+  out += svg_text(79, 116, "middle",
+                  "θ<tspan font-size=\"6\" dy=\"2\">h</tspan><tspan dy=\"-2\">: half vector to normal</tspan>", 7.5);
+  out += svg_text(8, 51, "middle",
+                  "θ<tspan font-size=\"6\" dy=\"2\">d</tspan><tspan dy=\"-2\">: half vector to light</tspan>", 7.5,
+                  " transform=\"rotate(-90 8 51)\"");
   return out;
 }
 
@@ -56,11 +53,6 @@ std::string cut_path(double cut_deg) {
   };
   return stroke("stroke=\"#000\" stroke-width=\"1.3\" stroke-opacity=\".55\"") +
          stroke("stroke=\"#fff\" stroke-width=\".8\" stroke-dasharray=\"3 2\"");
-}
-
-std::string drawing(std::string_view box, std::string_view title, std::string_view content) {
-  return "<svg viewBox=\"" + std::string(box) + "\" role=\"img\" aria-label=\"" + escape(title) + "\">" +
-         element("title", title) + std::string(content) + "</svg>";
 }
 
 // A frame with a logarithmic axis up, for losses.
@@ -92,12 +84,12 @@ class LossAxes {
     if (ticks.size() < 2) ticks = {lowest_, highest_};
     if (highest_ / lowest_ < 1.0001) ticks = {lowest_};
     for (const double tick : ticks) {
-      out += line(kX0, y(tick), kX1, y(tick), "stroke=\"#ddd\"");
-      out += text(kX0 - 5, y(tick) + 4, "end", highest_ / lowest_ < 1.2 ? number(tick, 5) : plain(tick), 12);
+      out += svg_line(kX0, y(tick), kX1, y(tick), "stroke=\"#ddd\"");
+      out += svg_text(kX0 - 5, y(tick) + 4, "end", highest_ / lowest_ < 1.2 ? number(tick, 5) : plain(tick), 12);
     }
-    out += text(kX0, kY1 + 17, "middle", plain(first), 12) + text(kX1, kY1 + 17, "end", plain(last), 12);
-    out += text((kX0 + kX1) / 2, kY1 + 34, "middle", across, 12);
-    out += text(kX0, kY0 - 8, "start", "loss (log scale)", 12);
+    out += svg_text(kX0, kY1 + 17, "middle", plain(first), 12) + svg_text(kX1, kY1 + 17, "end", plain(last), 12);
+    out += svg_text((kX0 + kX1) / 2, kY1 + 34, "middle", across, 12);
+    out += svg_text(kX0, kY0 - 8, "start", "loss (log scale)", 12);
     return out;
   }
 
@@ -123,9 +115,10 @@ std::string regions_figure() {
                  "<rect x=\"34\" y=\"6\" width=\"90\" height=\"20\" fill=\"#cfe0f3\"/>"
                  "<rect x=\"106\" y=\"26\" width=\"18\" height=\"70\" fill=\"#dcd3ec\"/>"
                  "<rect x=\"34\" y=\"26\" width=\"14\" height=\"70\" fill=\"#f6cfc4\"/>" +
-                     text(79, 19, "middle", "Fresnel peak") + text(77, 64, "middle", "diffuse") +
-                     text(43.5, 61, "middle", "specular peak", 8, " transform=\"rotate(-90 43.5 61)\"") +
-                     text(118, 61, "middle", "retroreflection", 8, " transform=\"rotate(-90 118 61)\"") + slice_axes());
+                     svg_text(79, 19, "middle", "Fresnel peak") + svg_text(77, 64, "middle", "diffuse") +
+                     svg_text(43.5, 61, "middle", "specular peak", 8, " transform=\"rotate(-90 43.5 61)\"") +
+                     svg_text(118, 61, "middle", "retroreflection", 8, " transform=\"rotate(-90 118 61)\"") +
+                     slice_axes());
 }
 
 std::string difference_legend() {
@@ -142,14 +135,14 @@ std::string difference_legend() {
   out += "<rect x=\"20\" y=\"18\" width=\"260\" height=\"16\" fill=\"url(#stops)\" stroke=\"#777\"/>";
   for (int i = -2; i <= 2; ++i) {
     const double x = 150 + 65 * i;
-    out += line(x, 34, x, 39, "stroke=\"#555\"");
-    out += text(x, 51, "middle", i > 0 ? "+" + std::to_string(i) : i < 0 ? "−" + std::to_string(-i) : "0", 12);
+    out += svg_line(x, 34, x, 39, "stroke=\"#555\"");
+    out += svg_text(x, 51, "middle", i > 0 ? "+" + std::to_string(i) : i < 0 ? "−" + std::to_string(-i) : "0", 12);
   }
-  out += text(20, 13, "start", "model darker", 12) + text(150, 13, "middle", "equal", 12) +
-         text(280, 13, "end", "model brighter", 12);
-  out += text(150, 66, "middle", "stops: +1 is twice the light, −1 is half", 12);
+  out += svg_text(20, 13, "start", "model darker", 12) + svg_text(150, 13, "middle", "equal", 12) +
+         svg_text(280, 13, "end", "model brighter", 12);
+  out += svg_text(150, 66, "middle", "stops: +1 is twice the light, −1 is half", 12);
   out += "<rect x=\"20\" y=\"76\" width=\"22\" height=\"14\" fill=\"url(#hatch)\" stroke=\"#777\"/>" +
-         text(48, 87, "start", "not compared: no data, or beyond cut", 12);
+         svg_text(48, 87, "start", "not compared: no data, or beyond cut", 12);
   return drawing("0 0 300 94",
                  "Scale of the signed difference, from 2 stops darker (blue) over equal (white) to 2 stops "
                  "brighter (orange); hatched where nothing is compared.",

@@ -4,14 +4,22 @@
 #include <cmath>
 #include <string_view>
 
-#include "fit/report/html.h"
 #include "fit/report/plots.h"
 #include "fit/report/slice.h"
 #include "fit/report/spheres.h"
 #include "fit/report/tables.h"
 #include "render/image/write.h"
+#include "render/page/html.h"
 
 namespace likeness::fit {
+
+using page::element;
+using page::escape;
+using page::fixed;
+using page::page_foot;
+using page::page_head;
+using page::plain;
+using page::png_data_url;
 namespace {
 
 // With a space that does not break before the sign.

@@ -11,10 +11,16 @@
 #include <type_traits>
 #include <variant>
 
-#include "fit/report/html.h"
 #include "render/image/tone_curve.h"
+#include "render/page/html.h"
 
 namespace likeness::fit {
+
+using page::element;
+using page::escape;
+using page::fixed;
+using page::number;
+using page::plain;
 namespace {
 
 constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();

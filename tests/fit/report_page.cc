@@ -6,10 +6,12 @@
 #include <limits>
 #include <sstream>
 
-#include "fit/report/html.h"
+#include "render/page/html.h"
 #include "render/files/files.h"
 
 namespace likeness::fit {
+
+using page::escape;
 namespace {
 
 Metrics example_metrics(double error, double log_rms) {

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <string>
 
-#include "fit/report/html.h"
+#include "render/page/html.h"
 #include "fit/report/overview.h"
 #include "fit/report/slice.h"
 #include "fit/report/spheres.h"
@@ -15,6 +15,11 @@
 #include "tests/fit/report_page.h"
 
 namespace likeness::fit {
+
+using page::escape;
+using page::base64;
+using page::number;
+using page::fixed;
 namespace {
 
 using Lambert = brdf::Lambert<double>;

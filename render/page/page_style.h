@@ -2,7 +2,7 @@
 
 #include <string_view>
 
-namespace likeness::fit {
+namespace likeness::page {
 
 // The look of the report and of the overview: one column of at most 1180 px, dark on light, nothing wider than the
 // window but what scrolls in its own box, and a print form without it.
@@ -78,4 +78,4 @@ select{font:inherit;padding:4px}
 }
 )css";
 
-}  // namespace likeness::fit
+}  // namespace likeness::page

@@ -1,4 +1,4 @@
-#include "fit/report/html.h"
+#include "render/page/html.h"
 
 #include <algorithm>
 #include <array>
@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <cstdio>
 
-#include "fit/report/page_style.h"
+#include "render/page/page_style.h"
 
-namespace likeness::fit {
+namespace likeness::page {
 namespace {
 
 // The length of the UTF-8 sequence that starts here, 0 if it is not one: no overlong forms, surrogates, or values
@@ -106,4 +106,4 @@ std::string page_head(std::string_view title) {
 
 std::string page_foot() { return "</body>\n</html>\n"; }
 
-}  // namespace likeness::fit
+}  // namespace likeness::page

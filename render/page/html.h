@@ -3,8 +3,8 @@
 #include <string>
 #include <string_view>
 
-// Small pieces of the pages that a fit writes. Everything that is not the pages' own text goes through escape().
-namespace likeness::fit {
+// Small pieces of the pages that commands write. Everything that is not the pages' own text goes through escape().
+namespace likeness::page {
 
 // Text for an element's content or a quoted attribute: & < > " ' become entities, control characters and bytes that
 // are not UTF-8 become U+FFFD.
@@ -31,4 +31,4 @@ std::string element(std::string_view tag, std::string_view text);
 std::string page_head(std::string_view title);
 std::string page_foot();
 
-}  // namespace likeness::fit
+}  // namespace likeness::page
