@@ -6,7 +6,7 @@
 
 namespace likeness::brdf {
 
-inline constexpr std::size_t kGeometryColumns = 16;  // the plain numbers of a Geometry
+inline constexpr std::size_t kGeometryColumns = 17;  // the plain numbers of a Geometry
 
 // A pair of directions and every angle of it that the models read, computed once and without
 // cancellation: sin theta_d = |l - v| / 2 and cos theta_d = |l + v| / 2 for unit l and v, and
@@ -22,11 +22,17 @@ struct Geometry {
   T cos_i, cos_o;                           // of the light's and the viewer's angle to the normal; may be <= 0
   T cos_h, sin2_h, versine_h;               // of theta_h: cosine, squared sine, 1 - cosine
   T cos_d, versine_d;                       // of theta_d: cosine, 1 - cosine
+  T cos_vl;                                 // of the angle between them, 2 theta_d: keeps its digits where it vanishes
   decltype(greater(T(0.0), T(0.0))) above;  // a mask: both directions are above the horizon
 
   // From directions in this precision.
   Geometry(const Vec3<T>& l, const Vec3<T>& v)
-      : to_light(l), to_view(v), cos_i(l.z), cos_o(v.z), above(both(greater(l.z, T(0)), greater(v.z, T(0)))) {
+      : to_light(l),
+        to_view(v),
+        cos_i(l.z),
+        cos_o(v.z),
+        cos_vl(dot(l, v)),
+        above(both(greater(l.z, T(0)), greater(v.z, T(0)))) {
     const Vec3<T> sum = l + v, difference = l - v;
     const T length2 = dot(sum, sum);
     const auto usable = greater(length2, constant<T>(kTiny<T> * kTiny<T>));
@@ -54,12 +60,13 @@ struct Geometry {
         versine_h(T(g.versine_h)),
         cos_d(T(g.cos_d)),
         versine_d(T(g.versine_d)),
+        cos_vl(T(g.cos_vl)),
         above(g.above) {}
 
   // As kGeometryColumns numbers, for tables and streams, and back without loss.
   void to_columns(T* out) const {
-    const T all[]{to_light.x, to_light.y, to_light.z, to_view.x, to_view.y, to_view.z, half.x, half.y,
-                  half.z,     cos_i,      cos_o,      cos_h,     sin2_h,    versine_h, cos_d,  versine_d};
+    const T all[]{to_light.x, to_light.y, to_light.z, to_view.x, to_view.y, to_view.z, half.x,    half.y, half.z,
+                  cos_i,      cos_o,      cos_h,      sin2_h,    versine_h, cos_d,     versine_d, cos_vl};
     for (std::size_t i = 0; i < kGeometryColumns; ++i) out[i] = all[i];
   }
   static Geometry from_columns(const T* in) { return Geometry(in); }
@@ -76,6 +83,7 @@ struct Geometry {
         versine_h(in[13]),
         cos_d(in[14]),
         versine_d(in[15]),
+        cos_vl(in[16]),
         above(both(greater(in[9], T(0)), greater(in[10], T(0)))) {}
 };
 
@@ -94,6 +102,7 @@ Geometry<T> geometry_at(const T& theta_h, const T& theta_d, const T& phi_d) {
   g.versine_h = T(2) * squared(T(sin(T(theta_h * T(0.5)))));
   g.cos_d = cos_d;
   g.versine_d = T(2) * squared(T(sin(T(theta_d * T(0.5)))));
+  g.cos_vl = cos(T(theta_d + theta_d));
   return g;
 }
 
