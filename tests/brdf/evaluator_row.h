@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdlib>
 #include <fstream>
 #include <map>
 #include <sstream>
@@ -26,7 +27,8 @@ inline std::vector<Row> read_reference(const std::string& name) {
       while (std::getline(cells, cell, ',')) names.push_back(cell);
     } else {
       Row row;
-      for (std::size_t i = 0; std::getline(cells, cell, ','); ++i) row[names.at(i)] = std::stod(cell);
+      for (std::size_t i = 0; std::getline(cells, cell, ','); ++i)
+        row[names.at(i)] = std::strtod(cell.c_str(), nullptr);  // 1e-343 is 0
       rows.push_back(row);
     }
   }
