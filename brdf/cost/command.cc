@@ -1,0 +1,79 @@
+#include "brdf/cost/command.h"
+
+#include <unistd.h>
+
+#include <cstdio>
+#include <iostream>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+
+#include "brdf/cost/study.h"
+#include "render/files/files.h"
+
+namespace likeness::cost {
+namespace {
+
+struct Request {
+  Options options;
+  std::string out;
+  bool csv = false;
+};
+
+int run(const Request& request) {
+  const bool on_terminal = isatty(STDERR_FILENO) == 1;
+  Study study;
+  try {
+    study = run_study(request.options, [&](const std::string& what, double share) {
+      if (on_terminal) std::fprintf(stderr, "\r\033[K%3.0f %%  %s", 100 * share, what.c_str());
+    });
+  } catch (const std::invalid_argument& error) {
+    throw files::UsageError(error.what());
+  }
+  if (on_terminal) std::fprintf(stderr, "\r\033[K");
+  std::cout << (request.csv ? csv_of(study) : table_of(study));
+  if (!request.out.empty()) {
+    const std::filesystem::path folder = request.out;
+    files::write_whole(folder / "evaluators.csv", csv_of(study));
+    files::write_whole(folder / "evaluators.html", page_of(study));
+    std::cerr << "written: " << (folder / "evaluators.html").string() << " and evaluators.csv beside it\n";
+  }
+  return 0;
+}
+
+}  // namespace
+
+void add_cost(CLI::App& program, int& exit_code) {
+  CLI::App* cost = program.add_subcommand("cost", "Measure what accuracy costs in time, on this machine");
+  cost->require_subcommand(1);
+  auto request = std::make_shared<Request>();
+  CLI::App* evaluators = cost->add_subcommand(
+      "evaluators", "Time and error of every form of the run-time evaluators, from the cheapest to the reference");
+  evaluators->footer(
+      "Measures, in one process and interleaved, nanoseconds and instructions for each evaluation in double, float "
+      "and\n"
+      "batches, against the error of each form, and prints one table for each family.\n"
+      "\n"
+      "  likeness cost evaluators --out out/cost             all families, a minute or two; and a page with plots\n"
+      "  likeness cost evaluators --family hair --repeats 51 one family, more readings\n"
+      "\n"
+      "Exit codes: 0 done, 2 usage, 4 the results cannot be written.");
+  evaluators->add_option(
+      "--family", request->options.families,
+      "Only these: diffuse, fresnel, hair, diffusion_inverse, diffusion_profile, normal_length, tonemap");
+  evaluators->add_option("--repeats", request->options.repeats, "Readings of each form; the median of them counts")
+      ->check(CLI::Range(1, 10000))
+      ->capture_default_str();
+  evaluators->add_option("--seconds", request->options.seconds, "CPU time of one reading")
+      ->check(CLI::Range(1e-4, 10.0))
+      ->capture_default_str();
+  evaluators
+      ->add_option("--draws", request->options.draws_scale, "Times the number of inputs that errors are taken over")
+      ->check(CLI::Range(1e-3, 1e3))
+      ->capture_default_str();
+  evaluators->add_flag("--csv", request->csv, "Print CSV instead of tables");
+  evaluators->add_option("--out", request->out, "Folder for evaluators.html and evaluators.csv");
+  evaluators->callback([request, &exit_code] { exit_code = run(*request); });
+}
+
+}  // namespace likeness::cost

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <random>
+#include <string>
+#include <vector>
+
+// What is compared: for each family of evaluators the ladder from its cheapest form to its reference, over inputs that
+// are drawn from a stated distribution.
+namespace likeness::cost {
+
+// The same numbers on every machine.
+class Random {
+ public:
+  explicit Random(std::uint64_t seed) : engine_(seed) {}
+  double uniform(double low = 0, double high = 1) { return low + (high - low) * double(engine_() >> 11) * 0x1p-53; }
+
+ private:
+  std::mt19937_64 engine_;
+};
+
+// One form of a family's function: an evaluator of the catalog, and how a draw becomes its inputs.
+struct Rung {
+  std::string label;      // what the reader sees
+  std::string evaluator;  // name in the catalog
+  // Fills the inputs of the evaluator's first form, which hold the defaults of its table before the call.
+  std::function<void(const double* draw, double* in)> inputs;
+  // What is compared, from the evaluator's outputs; without it the first output.
+  std::function<double(const double* draw, const double* out)> value = {};
+  bool is_reference = false;
+  std::string note = {};  // what a reader should know of this form
+};
+
+struct Family {
+  std::string name, title;
+  std::string text;          // what the function is, and what its errors are measured against
+  std::string distribution;  // of the draws, in words
+  std::vector<std::string> draw_names;
+  std::function<void(Random&, double* draw)> draw;
+  // What a value counts for in the energy (a cosine, a width of radii); empty: there is no energy to compare.
+  std::function<double(const double* draw)> energy_weight = {};
+  // Sums are taken within each of these bins of draws (a range of roughness and of view angles), as an albedo is.
+  std::function<std::size_t(const double* draw)> energy_bin = {};
+  std::size_t energy_bins = 1;
+  std::string energy_name = {};  // "albedo", "energy of the profile"
+  std::size_t draws = 20000;     // for the errors
+  double negligible = 1e-4;      // of the reference's root mean square: smaller values count as this in relative errors
+  std::vector<Rung> rungs;
+};
+
+// All families, in the order of the page.
+std::vector<Family> families();
+
+Family diffuse_family();
+Family fresnel_family();
+Family hair_family();
+Family diffusion_inverse_family();
+Family diffusion_profile_family();
+Family normal_length_family();
+Family tonemap_family();
+
+}  // namespace likeness::cost

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "brdf/cost/accuracy.h"
+#include "brdf/cost/ladder.h"
+#include "brdf/cost/timing.h"
+
+// The whole measurement: what accuracy costs in time.
+namespace likeness::cost {
+
+struct Options {
+  std::vector<std::string> families;  // names; empty: all
+  int repeats = 15;
+  double seconds = 0.004;  // CPU time of one reading
+  double draws_scale = 1;  // times each family's number of draws
+};
+
+// One form in one precision.
+struct Cell {
+  Timing timing;
+  Accuracy accuracy;
+  // Another form of the family in the same precision that is at once faster and no less exact; empty: none is.
+  std::string dominated_by;
+};
+
+struct FamilyResult {
+  Family family;
+  std::size_t draws = 0;
+  std::vector<std::array<Cell, 3>> cells;  // one for each rung; double, float, batch
+};
+
+struct Study {
+  Machine machine;
+  Options options;
+  double seconds = 0;  // CPU time of the whole
+  std::vector<FamilyResult> families;
+};
+
+// `progress` is told what is being done and the share of all that is done. Throws std::invalid_argument for a family
+// that there is not.
+Study run_study(const Options& options, const std::function<void(const std::string&, double)>& progress);
+
+// One line for each form and precision.
+std::string csv_of(const Study& study);
+// For the terminal.
+std::string table_of(const Study& study);
+// One self-contained HTML page with a plot for each family.
+std::string page_of(const Study& study);
+
+}  // namespace likeness::cost
