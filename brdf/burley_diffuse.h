@@ -5,6 +5,8 @@
 
 #include "brdf/geometry.h"
 #include "brdf/parameter.h"
+#include "brdf/promises.h"
+#include "brdf/sampling.h"
 
 namespace likeness::brdf {
 
@@ -39,6 +41,7 @@ template <Scalar S>
 struct BurleyDiffuse {
   static constexpr std::string_view kName = "burley_diffuse";
   static constexpr std::string_view kText = "diffuse of Burley 2012, with a retroreflective rise by roughness";
+  static constexpr Promises kPromises{.reciprocal = true, .energy = Energy::kUnbounded};
   // clang-format off
   static constexpr std::array kParameters{
       Parameter{.name = "base_color", .initial = 0.5, .range = {0, 1}, .typical = {0.02, 0.9},
@@ -57,6 +60,14 @@ struct BurleyDiffuse {
     return base_color * S(burley_grazing(burley_at_grazing(roughness, g.cos_d), g.cos_i, g.cos_o) * weight);
   }
   Rgb<S> eval(const Vec3<S>& to_light, const Vec3<S>& to_view) const { return eval(Geometry<S>(to_light, to_view)); }
+
+  CosineLobe<S> lobes(const Vec3<S>&) const { return {}; }
+  Sample<S> sample(const Vec3<S>& to_view, const S& choice, const S& u, const S& v) const {
+    return sample_lobes(*this, to_view, choice, u, v);
+  }
+  S pdf(const Vec3<S>& to_light, const Vec3<S>& to_view) const {
+    return lobes_pdf(lobes(to_view), Geometry<S>(to_light, to_view));
+  }
 };
 
 }  // namespace likeness::brdf

@@ -6,6 +6,7 @@
 #include "brdf/geometry.h"
 #include "brdf/ggx.h"
 #include "brdf/parameter.h"
+#include "brdf/promises.h"
 
 namespace likeness::brdf {
 
@@ -31,6 +32,7 @@ struct Callisto {
   static constexpr std::string_view kName = "callisto";
   static constexpr std::string_view kText =
       "diffuse shaped in half-angle space, two GGX lobes, and a smooth terminator";
+  static constexpr Promises kPromises{.reciprocal = false, .energy = Energy::kUnbounded};
   // clang-format off
   static constexpr std::array kParameters{
       Parameter{.name = "base_color", .initial = 0.5, .range = {0, 1}, .typical = {0.02, 0.9},
@@ -151,7 +153,7 @@ struct Callisto {
     t.shade = pick(inside, S(T(a + b * (T(1) - a)) + mask * (u * u * (S(3) - (u + u)))), S(1));
 
     const S alpha = alpha_of_roughness(roughness);
-    const S alpha_2 = alpha_of_roughness(smaller(S(roughness * dual_specular_roughness_scale), S(1)));
+    const S alpha_2 = second_alpha();
     t.lobe = mix(S(ggx_distribution(alpha, g.cos_h, g.sin2_h) * ggx_visibility(alpha, cos_i, cos_o)),
                  S(ggx_distribution(alpha_2, g.cos_h, g.sin2_h) * ggx_visibility(alpha_2, cos_i, cos_o)),
                  dual_specular_opacity);
@@ -186,7 +188,30 @@ struct Callisto {
   }
   Rgb<S> eval(const Vec3<S>& to_light, const Vec3<S>& to_view) const { return eval(Geometry<S>(to_light, to_view)); }
 
+  // What is sampled: the diffuse by its cosine, each GGX lobe by its normals, in proportion to estimates of what they
+  // return to this view. The diffuse rises are taken where they peak, in the mirror direction and towards the viewer.
+  Mixture<S, CosineLobe<S>, GgxLobe<S>, GgxLobe<S>> lobes(const Vec3<S>& to_view) const {
+    const S versine = S(1) - clamp01(to_view.z), r = remap(specular_fresnel_falloff);
+    const S rise = power5(versine, remap(diffuse_fresnel_falloff));
+    const S retro = power5(versine, remap(retroreflection_falloff));
+    const S rho = mean(base_color);
+    const S diffuse = rho * (S(1) - metallic) * mix(S(1), S(diffuse_fresnel * mean(diffuse_fresnel_tint)), rise) *
+                      mix(S(1), S(retroreflection * mean(retroreflection_tint)), retro);
+    const S f0 = mix(S(constant<S>(0.08) * specular), rho, metallic);
+    const S glossy = mix(f0, S(1), S(clamp01(S(S(2) - r)) * power5(usual_versine(to_view), r)));
+    return Mixture<S, CosineLobe<S>, GgxLobe<S>, GgxLobe<S>>(
+        {diffuse, glossy * (S(1) - dual_specular_opacity), glossy * dual_specular_opacity}, {},
+        GgxLobe<S>(alpha_of_roughness(roughness)), GgxLobe<S>(second_alpha()));
+  }
+  Sample<S> sample(const Vec3<S>& to_view, const S& choice, const S& u, const S& v) const {
+    return sample_lobes(*this, to_view, choice, u, v);
+  }
+  S pdf(const Vec3<S>& to_light, const Vec3<S>& to_view) const {
+    return lobes_pdf(lobes(to_view), Geometry<S>(to_light, to_view));
+  }
+
  private:
+  S second_alpha() const { return alpha_of_roughness(smaller(S(roughness * dual_specular_roughness_scale), S(1))); }
   static S remap(const S& x) { return S(2) * (S(1) - x); }
 };
 

@@ -7,20 +7,9 @@
 #include "brdf/geometry.h"
 #include "brdf/ggx.h"
 #include "brdf/parameter.h"
+#include "brdf/promises.h"
 
 namespace likeness::brdf {
-
-// GGX distribution of normals D(h), [1/sr], anisotropic. Multiplied through by alpha_x alpha_y, so that
-// alpha_x = alpha_y has the bits of ggx_distribution on sin^2 = x^2 + y^2, and so that nothing is divided
-// by a small alpha.
-// Source  Burley 2012, appendix B.2 (GTR, gamma = 2). Holds: integral of D cos = 1.
-template <Scalar S, Scalar T>
-S ggx_distribution_anisotropic(const S& alpha_x, const S& alpha_y, const Vec3<T>& half, const T& cos_h) {
-  const S area = alpha_x * alpha_y;
-  const S across = alpha_y / alpha_x * T(half.x * half.x) + alpha_x / alpha_y * T(half.y * half.y);
-  const S e = area * T(cos_h * cos_h) + across;
-  return area / (e * e * constant<T>(std::numbers::pi));
-}
 
 // Berry's distribution (GTR with gamma = 1) D(h), [1/sr], isotropic, 0 < alpha < 1: the clearcoat's long tail.
 // Source  Burley 2012, appendix B.2 (GTR, gamma = 1), written in sin^2 and cos^2. Holds: integral of D cos = 1.
@@ -31,14 +20,24 @@ S gtr1_distribution(const S& alpha, const T& cos_h, const T& sin2_h) {
   return (alpha2 - S(1)) / (S(log(alpha2)) * e * constant<T>(std::numbers::pi));
 }
 
-// Smith's masking of one direction divided by 2 cos: 1 / (cos + sqrt(alpha^2 + (1 - alpha^2) cos^2)), [1].
-// Two of them, light times view, are G / (4 cos_i cos_o) of uncorrelated shadowing and masking.
-// Source  Walter 2007 eq. 34, divided by 2 cos.
-template <Scalar S, Scalar T>
-S ggx_masking(const S& alpha, const T& c) {
-  const S alpha2 = alpha * alpha;
-  return S(1) / (S(sqrt(S(alpha2 + (S(1) - alpha2) * T(c * c)))) + c);
-}
+// The normals of Berry's distribution, as a lobe to sample: density D(h) cos_h / (4 cos_d). Every normal, seen or not:
+// what is mirrored below the horizon is lost. sin^2 and cos^2 come from inverting the distribution's integral,
+// cos^2 = (1 - alpha^(2 (1 - v))) / (1 - alpha^2), each without cancellation.
+template <Scalar S>
+struct BerryLobe {
+  S alpha;
+
+  Vec3<S> light(const Vec3<S>& to_view, const S& u, const S& v) const {
+    const S log_alpha2 = log(S(alpha * alpha)), angle = constant<S>(2 * std::numbers::pi) * u;
+    const S cos2 = S(expm1(S((S(1) - v) * log_alpha2))) / S(expm1(log_alpha2));
+    const S sin2 = alpha * alpha * S(expm1(S(-v * log_alpha2))) / (S(1) - alpha * alpha);
+    const S sine = sqrt(sin2);
+    return mirrored(to_view, Vec3<S>(S(sine * cos(angle)), S(sine * sin(angle)), S(sqrt(cos2))));
+  }
+  S density(const Geometry<S>& g) const {
+    return gtr1_distribution(alpha, g.cos_h, g.sin2_h) * g.cos_h / larger(S(S(4) * g.cos_d), constant<S>(kTiny<S>));
+  }
+};
 
 // Disney's "principled" BRDF of 2012, all of it: Burley's diffuse or its flatter 'subsurface' variant, sheen,
 // one anisotropic GGX lobe and a clearcoat; [1/sr], cosine not included.
@@ -66,6 +65,7 @@ template <Scalar S>
 struct Disney2012 {
   static constexpr std::string_view kName = "disney2012";
   static constexpr std::string_view kText = "the principled model of Burley 2012";
+  static constexpr Promises kPromises{.reciprocal = true, .energy = Energy::kUnbounded};
   // clang-format off
   static constexpr std::array kParameters{
       Parameter{.name = "base_color", .initial = 0.5, .range = {0, 1}, .typical = {0.02, 0.9},
@@ -125,34 +125,62 @@ struct Disney2012 {
                       constant<T>(std::numbers::inv_pi);
 
     // Specular: one lobe for all channels, the Fresnel term in each.
-    const S alpha = roughness * roughness, aspect = sqrt(S(S(1) - constant<S>(0.9) * anisotropic));
-    const S alpha_x = larger(S(alpha / aspect), constant<S>(0.001));
-    const S alpha_y = larger(S(alpha * aspect), constant<S>(0.001));
+    const GgxLobe<S> slopes = specular_slopes();
     const S alpha_g = squared(S(S(0.5) + S(0.5) * roughness));
-    const S lobe = ggx_distribution_anisotropic(alpha_x, alpha_y, g.half, g.cos_h) * ggx_masking(alpha_g, cos_i) *
-                   ggx_masking(alpha_g, cos_o);
+    const S lobe = ggx_distribution_anisotropic(slopes.alpha_x, slopes.alpha_y, g.half, g.cos_h) *
+                   ggx_masking(alpha_g, cos_i) * ggx_masking(alpha_g, cos_o);
 
     // Clearcoat: white, of fixed index (f0 = 0.04) and fixed masking.
     const T coat_fresnel = mix(constant<T>(0.04), T(1), fresnel);
     const T coat_masking = ggx_masking(T(0.25), cos_i) * ggx_masking(T(0.25), cos_o);
-    const S coat_alpha = mix(constant<S>(0.1), constant<S>(0.001), clearcoat_gloss);
     const S coat =
-        S(0.25) * clearcoat * gtr1_distribution(coat_alpha, g.cos_h, g.sin2_h) * T(coat_fresnel * coat_masking);
+        S(0.25) * clearcoat * gtr1_distribution(coat_alpha(), g.cos_h, g.sin2_h) * T(coat_fresnel * coat_masking);
 
-    const S luminance =
-        constant<S>(0.3) * base_color.r + constant<S>(0.6) * base_color.g + constant<S>(0.1) * base_color.b;
-    const auto has_hue = greater(luminance, constant<S>(kTiny<S>));
-    const S over_luminance = S(1) / pick(has_hue, luminance, S(1));
-    const auto channel = [&](const S& rho) {
-      const S tint = pick(has_hue, S(rho * over_luminance), S(1));
-      const S f0 = mix(S(constant<S>(0.08) * specular * mix(S(1), tint, specular_tint)), rho, metallic);
-      const S sheen_color = sheen * mix(S(1), tint, sheen_tint) * fresnel;
+    const Rgb<S> hue = tint();
+    const auto channel = [&](const S& rho, const S& of_channel) {
+      const S f0 = mix(S(constant<S>(0.08) * specular * mix(S(1), of_channel, specular_tint)), rho, metallic);
+      const S sheen_color = sheen * mix(S(1), of_channel, sheen_tint) * fresnel;
       const S below = (diffuse * rho + sheen_color) * (S(1) - metallic);
       return S(pick(g.above, S(below + mix(f0, S(1), fresnel) * lobe + coat), S(0)));
     };
-    return {channel(base_color.r), channel(base_color.g), channel(base_color.b)};
+    return {channel(base_color.r, hue.r), channel(base_color.g, hue.g), channel(base_color.b, hue.b)};
   }
   Rgb<S> eval(const Vec3<S>& to_light, const Vec3<S>& to_view) const { return eval(Geometry<S>(to_light, to_view)); }
+
+  // What is sampled: diffuse and sheen by the cosine, the specular lobe by the normals of its D that Smith's term for that
+  // D leaves visible (f itself has the remapped one), the clearcoat by its D, in proportion to estimates of what they
+  // return to this view.
+  Mixture<S, CosineLobe<S>, BerryLobe<S>, GgxLobe<S>> lobes(const Vec3<S>& to_view) const {
+    const S rise = schlick_weight(usual_versine(to_view));
+    const S hue = mean(tint()), rho = mean(base_color);
+    const S f0 = mix(S(constant<S>(0.08) * specular * mix(S(1), hue, specular_tint)), rho, metallic);
+    const S diffuse = (rho + sheen * mix(S(1), hue, sheen_tint) * rise) * (S(1) - metallic);
+    const S coat = S(0.25) * clearcoat * mix(constant<S>(0.04), S(1), rise);
+    return Mixture<S, CosineLobe<S>, BerryLobe<S>, GgxLobe<S>>({diffuse, coat, mix(f0, S(1), rise)}, {}, {coat_alpha()},
+                                                               specular_slopes());
+  }
+  Sample<S> sample(const Vec3<S>& to_view, const S& choice, const S& u, const S& v) const {
+    return sample_lobes(*this, to_view, choice, u, v);
+  }
+  S pdf(const Vec3<S>& to_light, const Vec3<S>& to_view) const {
+    return lobes_pdf(lobes(to_view), Geometry<S>(to_light, to_view));
+  }
+
+ private:
+  GgxLobe<S> specular_slopes() const {
+    const S alpha = roughness * roughness, aspect = sqrt(S(S(1) - constant<S>(0.9) * anisotropic));
+    return {larger(S(alpha / aspect), constant<S>(0.001)), larger(S(alpha * aspect), constant<S>(0.001))};
+  }
+  S coat_alpha() const { return mix(constant<S>(0.1), constant<S>(0.001), clearcoat_gloss); }
+  // base_color over its luminance; white where it is black.
+  Rgb<S> tint() const {
+    const S luminance =
+        constant<S>(0.3) * base_color.r + constant<S>(0.6) * base_color.g + constant<S>(0.1) * base_color.b;
+    const auto has_hue = greater(luminance, constant<S>(kTiny<S>));
+    const S scale = S(1) / pick(has_hue, luminance, S(1));
+    return {pick(has_hue, S(base_color.r * scale), S(1)), pick(has_hue, S(base_color.g * scale), S(1)),
+            pick(has_hue, S(base_color.b * scale), S(1))};
+  }
 };
 
 }  // namespace likeness::brdf

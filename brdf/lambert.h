@@ -5,6 +5,8 @@
 
 #include "brdf/geometry.h"
 #include "brdf/parameter.h"
+#include "brdf/promises.h"
+#include "brdf/sampling.h"
 
 namespace likeness::brdf {
 
@@ -17,6 +19,7 @@ template <Scalar S>
 struct Lambert {
   static constexpr std::string_view kName = "lambert";
   static constexpr std::string_view kText = "perfectly diffuse reflection, rho / pi";
+  static constexpr Promises kPromises{.reciprocal = true, .energy = Energy::kBaseColor};
   // clang-format off
   static constexpr std::array kParameters{
       Parameter{.name = "base_color", .initial = 0.5, .range = {0, 1}, .typical = {0.02, 0.9},
@@ -32,6 +35,14 @@ struct Lambert {
     return base_color * weight;
   }
   Rgb<S> eval(const Vec3<S>& to_light, const Vec3<S>& to_view) const { return eval(Geometry<S>(to_light, to_view)); }
+
+  CosineLobe<S> lobes(const Vec3<S>&) const { return {}; }
+  Sample<S> sample(const Vec3<S>& to_view, const S& choice, const S& u, const S& v) const {
+    return sample_lobes(*this, to_view, choice, u, v);
+  }
+  S pdf(const Vec3<S>& to_light, const Vec3<S>& to_view) const {
+    return lobes_pdf(lobes(to_view), Geometry<S>(to_light, to_view));
+  }
 };
 
 }  // namespace likeness::brdf

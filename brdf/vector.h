@@ -60,5 +60,10 @@ template <Scalar S, Scalar T>
 Rgb<S> operator*(const Rgb<S>& a, const T& s) {
   return {a.r * s, a.g * s, a.b * s};
 }
+// The mean of the channels: one number for what has to be chosen once for all three.
+template <Scalar S>
+S mean(const Rgb<S>& a) {
+  return (a.r + a.g + a.b) * constant<S>(1.0 / 3.0);
+}
 
 }  // namespace likeness::brdf
