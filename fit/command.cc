@@ -2,9 +2,7 @@
 
 #include <unistd.h>
 
-#include <atomic>
 #include <cmath>
-#include <csignal>
 #include <iomanip>
 #include <iostream>
 #include <memory>
@@ -16,6 +14,7 @@
 #include "fit/kernel.h"
 #include "fit/result_file.h"
 #include "render/files/files.h"
+#include "render/files/interrupt.h"
 
 namespace likeness::fit {
 
@@ -27,15 +26,6 @@ struct FitOptions {
   std::string tier = "full", on = "slice", loss = "log", out = "likeness_fit";
   bool json = false;
 };
-
-// Set by Ctrl-C; a second one ends the program at once, which loses nothing either: files are whole or absent.
-std::atomic<bool> interrupted{false};
-extern "C" void interrupt(int signal) {
-  if (interrupted.exchange(true)) {
-    std::signal(signal, SIG_DFL);
-    std::raise(signal);
-  }
-}
 
 std::string duration(double seconds) {
   std::ostringstream out;
@@ -117,11 +107,10 @@ int run_fit(FitOptions& o) {
   kernels();  // an impossible instruction set is said before anything is read
 
   const std::vector<Job> jobs = jobs_of(o.paths);
-  std::signal(SIGINT, interrupt);
-  std::signal(SIGTERM, interrupt);
+  files::catch_interrupts();
   const std::filesystem::path out = o.out;
   const BatchResult batch =
-      run_batch(jobs, o.fit, out, [] { return interrupted.load(); }, jobs.size() > 1 ? tell : nullptr, tell_model);
+      run_batch(jobs, o.fit, out, files::interrupted, jobs.size() > 1 ? tell : nullptr, tell_model);
   if (jobs.size() == 1) end_of_models();
 
   if (batch.interrupted) {

@@ -1,11 +1,14 @@
 #include "render/files/files.h"
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
+#include <charconv>
 #include <cstdint>
 #include <cstring>
 #include <memory>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include <fcntl.h>
@@ -23,15 +26,6 @@ struct Descriptor {
   Descriptor& operator=(const Descriptor&) = delete;
   ~Descriptor() {
     if (number >= 0) ::close(number);
-  }
-};
-
-// Removes a file on destruction unless `kept`.
-struct Temporary {
-  std::string name;
-  bool kept = false;
-  ~Temporary() {
-    if (!kept) ::unlink(name.c_str());
   }
 };
 
@@ -97,29 +91,46 @@ std::string read_whole(const std::filesystem::path& file, std::size_t limit) {
   return bytes;
 }
 
-void write_whole(const std::filesystem::path& file, std::string_view bytes) {
+WholeFile::WholeFile(std::filesystem::path file) : file_(std::move(file)) {
   std::error_code failed;
-  const std::filesystem::path folder = file.parent_path();
+  const std::filesystem::path folder = file_.parent_path();
   if (!folder.empty()) std::filesystem::create_directories(folder, failed);
-  if (failed) cannot_write(file, "its folder: " + failed.message());
-  if (std::filesystem::is_directory(file, failed)) cannot_write(file, "it is a folder");
+  if (failed) cannot_write(file_, "its folder: " + failed.message());
+  if (std::filesystem::is_directory(file_, failed)) cannot_write(file_, "it is a folder");
 
-  std::string pattern = (folder / ("." + file.filename().string() + ".XXXXXX")).string();
-  const Descriptor out(::mkostemp(pattern.data(), O_CLOEXEC));
-  if (out.number < 0) cannot_write(file, cause());
-  Temporary temporary{pattern};
+  std::string pattern = (folder / ("." + file_.filename().string() + ".XXXXXX")).string();
+  descriptor_ = ::mkostemp(pattern.data(), O_CLOEXEC);
+  if (descriptor_ < 0) cannot_write(file_, cause());
+  temporary_ = std::move(pattern);
   // mkostemp gives 0600; the file gets what an ordinary one gets.
   const mode_t mask = ::umask(0);
   ::umask(mask);
-  ::fchmod(out.number, 0666 & ~mask);
+  ::fchmod(descriptor_, 0666 & ~mask);
+}
+
+WholeFile::~WholeFile() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+  if (!temporary_.empty()) ::unlink(temporary_.c_str());
+}
+
+void WholeFile::append(std::string_view bytes) {
   while (!bytes.empty()) {
-    const ssize_t count = ::write(out.number, bytes.data(), bytes.size());
+    const ssize_t count = ::write(descriptor_, bytes.data(), bytes.size());
     if (count < 0 && errno == EINTR) continue;
-    if (count < 0) cannot_write(file, cause());
+    if (count < 0) cannot_write(file_, cause());
     bytes.remove_prefix(static_cast<std::size_t>(count));
   }
-  if (::rename(pattern.c_str(), file.c_str()) != 0) cannot_write(file, cause());
-  temporary.kept = true;
+}
+
+void WholeFile::commit() {
+  if (::rename(temporary_.c_str(), file_.c_str()) != 0) cannot_write(file_, cause());
+  temporary_.clear();
+}
+
+void write_whole(const std::filesystem::path& file, std::string_view bytes) {
+  WholeFile out(file);
+  out.append(bytes);
+  out.commit();
 }
 
 std::string nearest_name(std::string_view wanted, const std::string_view* names, std::size_t count) {
@@ -146,6 +157,19 @@ std::string nearest_name(std::string_view wanted, const std::string_view* names,
     if (d < best) best = d, nearest = names[i];
   }
   return std::string(nearest);
+}
+
+std::string in_quotes(std::string_view text) {
+  constexpr std::size_t kLongest = 60;  // characters that a message repeats
+  std::string out = "\"";
+  for (const char c : text.substr(0, kLongest)) out += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? '?' : c;
+  return out + (text.size() > kLongest ? "...\"" : "\"");
+}
+
+std::string number_text(double value) {
+  std::array<char, 32> digits{};
+  const auto [end, error] = std::to_chars(digits.data(), digits.data() + digits.size(), value);
+  return {digits.data(), end};
 }
 
 }  // namespace likeness::files

@@ -1,6 +1,5 @@
 #include "render/material/parameters.h"
 
-#include <charconv>
 #include <cmath>
 
 #include "render/files/files.h"
@@ -96,18 +95,6 @@ std::string complaint(const brdf::AnyBrdf& brdf) {
 std::string no_such_model(std::string_view name) {
   return "no model " + in_quotes(name) + did_you_mean(name, brdf::kModelNames) +
          " (models: " + list_of(brdf::kModelNames) + ")";
-}
-
-std::string number_text(double value) {
-  std::array<char, 32> digits{};
-  const auto [end, error] = std::to_chars(digits.data(), digits.data() + digits.size(), value);
-  return {digits.data(), end};
-}
-
-std::string in_quotes(std::string_view text) {
-  std::string out = "\"";
-  for (const char c : text.substr(0, kLongestQuote)) out += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? '?' : c;
-  return out + (text.size() > kLongestQuote ? "...\"" : "\"");
 }
 
 }  // namespace likeness::material

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "brdf/any_brdf.h"
+#include "render/files/files.h"
 
 // The parameter table of a model that is chosen at run time: what a file and a command line need of it.
 namespace likeness::material {
@@ -33,10 +34,7 @@ std::string complaint(const brdf::AnyBrdf& brdf);
 // `no model "calisto"; did you mean "callisto"? (models: callisto, ...)`: what to say of an unknown model.
 std::string no_such_model(std::string_view name);
 
-// The shortest decimal that reads back as the same double (at most 17 significant digits).
-std::string number_text(double value);
-
-// A user's text in quotes, on one line and of bounded length, for messages.
-std::string in_quotes(std::string_view text);
+using files::in_quotes;
+using files::number_text;
 
 }  // namespace likeness::material
