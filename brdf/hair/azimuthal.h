@@ -43,8 +43,8 @@ struct FibrePath {
   S chord;                   // cos gamma_t / cos theta_t: half of the way between two hits, in radii
   S reflected, transmitted;  // at one hit
 
-  // cos_h = sqrt(1 - h^2).
-  FibrePath(const S& h, const S& cos_h, const S& cos_theta, const S& eta) {
+  // h = sin gamma, cos_h = cos gamma.
+  FibrePath(const S& gamma, const S& h, const S& cos_h, const S& cos_theta, const S& eta) : gamma_i(gamma) {
     const S q = (eta - S(1)) * (eta + S(1)), cosine = cos_theta * cos_h;
     const S outer2 = q + cos_theta * cos_theta;  // (eta cos theta_t)^2
     const S inner2 = q + cosine * cosine;        // (eta cos of the refracted angle)^2
@@ -52,7 +52,6 @@ struct FibrePath {
     const S outer2_or_1 = pick(usable, outer2, S(1)), outer = sqrt(outer2_or_1);
     const S sin_t = h * pick(usable, S(cos_theta / outer), S(1));
     const S cos_t = safe_sqrt(pick(usable, S(inner2 / outer2_or_1), S(cos_h * cos_h)));
-    gamma_i = atan2(h, cos_h);
     gamma_t = atan2(sin_t, cos_t);
     chord = eta * cos_t / pick(usable, outer, constant<S>(kTiny<S>));
 
@@ -67,7 +66,8 @@ struct FibrePath {
 };
 template <Scalar S>
 FibrePath<S> fibre_path(const S& h, const S& cos_theta, const S& eta) {
-  return FibrePath<S>(h, safe_sqrt(S((S(1) - h) * (S(1) + h))), cos_theta, eta);
+  const S cos_h = safe_sqrt(S((S(1) - h) * (S(1) + h)));
+  return FibrePath<S>(S(atan2(h, cos_h)), h, cos_h, cos_theta, eta);
 }
 
 // The share of the light that leaves by each lobe, [1], after an optical depth `depth` >= 0 between two hits:

@@ -2,7 +2,7 @@
 
 #include "brdf/evaluator.h"
 #include "brdf/hair/far.h"
-#include "brdf/hair/longitudinal.h"
+#include "brdf/hair/fibre.h"
 
 // What brdf/hair computes, as rows of `likeness eval`.
 namespace likeness::brdf {
@@ -151,6 +151,76 @@ struct HairFar {
   }
 };
 
-using HairEvaluators = std::tuple<HairMp, HairGauss, HairNear, HairFar>;
+// The whole fibre. Its features are those of HairTerms: what float directions would ruin is done before.
+struct HairFibreRow {
+  using Model = HairFibre<double>;
+  static constexpr std::string_view kName = Model::kName;
+  static constexpr std::string_view kText = Model::kText;
+  static constexpr std::array kOutputs{
+      Output{.name = "f", .unit = "1/sr", .channels = 3, .text = "scattering function without the cosine, linear RGB"},
+      Output{.name = "f_cos", .unit = "1/sr", .channels = 3, .text = "with the cosine of theta_i, linear RGB"},
+      Output{.name = "pdf", .unit = "1/sr", .text = "density with which sample() proposes the light"}};
+  static constexpr std::size_t kFeatures = 21;
+
+  template <Scalar S>
+  static void store(const HairTerms<S>& t, S* out) {
+    for (const S& x : t.v) *out++ = x;
+    for (const S& x : t.versine) *out++ = x;
+    for (const S& x : t.cosines) *out++ = x;
+    for (const S& x : t.distance) *out++ = x;
+    for (const S& x : {t.s, t.depth.r, t.depth.g, t.depth.b, t.reflected, t.transmitted, t.cos_i}) *out++ = x;
+  }
+  template <Scalar S>
+  static HairTerms<S> terms(const S* f) {
+    return {.v = {f[0], f[1], f[2]},
+            .versine = {f[3], f[4], f[5], f[6]},
+            .cosines = {f[7], f[8], f[9], f[10]},
+            .distance = {f[11], f[12], f[13]},
+            .s = f[14],
+            .depth = {f[15], f[16], f[17]},
+            .reflected = f[18],
+            .transmitted = f[19],
+            .cos_i = f[20]};
+  }
+
+  struct Angles {
+    static constexpr auto kInputs =
+        joined(std::array{hair_inclination("theta_i", "inclination of the light from the normal plane"),
+                          hair_inclination("theta_o", "inclination of the viewer from the normal plane"), kHairAzimuth,
+                          kHairOffset},
+               Model::kParameters);
+    template <Scalar S>
+    static void prepare(const S* in, S* features) {
+      const auto at = [](const S& theta) { return Inclination<S>{sin(theta), positive(S(cos(theta)))}; };
+      const auto fibre = model_from_channels<HairFibre, S>(in + 4);
+      store(fibre.view(at(in[1]), S(0), in[3]).terms(at(in[0]), in[2]), features);
+    }
+  };
+  // Unit vectors in the frame of the fibre: x along it.
+  struct Axes {
+    static constexpr auto kInputs = joined(joined(Vectors::kInputs, std::array{kHairOffset}), Model::kParameters);
+    template <Scalar S>
+    static void prepare(const S* in, S* features) {
+      const auto fibre = model_from_channels<HairFibre, S>(in + 7);
+      store(fibre.view(Vec3<S>(in[3], in[4], in[5]), in[6]).terms(Vec3<S>(in[0], in[1], in[2])), features);
+    }
+  };
+  using Forms = std::tuple<Angles, Axes>;
+  template <Scalar S>
+  static void evaluate(const S* f, S* out) {
+    const HairTerms<S> t = terms(f);
+    const Rgb<S> f_cos = t.eval_cos();
+    const S scale = S(1) / larger(t.cos_i, constant<S>(kTiny<S>));
+    out[0] = f_cos.r * scale;
+    out[1] = f_cos.g * scale;
+    out[2] = f_cos.b * scale;
+    out[3] = f_cos.r;
+    out[4] = f_cos.g;
+    out[5] = f_cos.b;
+    out[6] = t.pdf();
+  }
+};
+
+using HairEvaluators = std::tuple<HairMp, HairGauss, HairNear, HairFar, HairFibreRow>;
 
 }  // namespace likeness::brdf

@@ -13,22 +13,36 @@ template <Scalar S>
 struct FarLobe {
   int p;
   S phi, s, sigma_a, eta, cos_theta;
+  S peak = S(1.0) / (s * tanh(S(constant<S>(std::numbers::pi / 2) / s)));  // four times the logistic's
 
   // A_p(h) D(phi - Phi(p, h)) dh / dgamma at h = sin gamma: analytic up to the ends, where dh / dgamma is 0, but for
   // the cut of the logistic half a turn from its peak.
   S density(double gamma) const {
-    const double h = std::sin(gamma), cos_h = std::cos(gamma);
-    const FibrePath<S> path(S(h), S(cos_h), cos_theta, eta);
-    const S distance = azimuth_distance(S(double(p)), phi, S(gamma), path.gamma_t);
-    const S depth = S(2) * sigma_a * path.chord;
-    return S(hair_near(S(double(p)), distance, s, depth, path.reflected, path.transmitted) * S(cos_h));
+    const double cos_h = std::cos(gamma);
+    const FibrePath<S> path(S(gamma), S(std::sin(gamma)), S(cos_h), cos_theta, eta);
+    if (p == 0) return path.reflected * logistic(path) * S(cos_h);
+    const S t = exp(S(S(-2) * sigma_a * path.chord)), g2 = path.transmitted * path.transmitted;
+    if (p == 1) return g2 * t * logistic(path) * S(cos_h);
+    if (p == 2) return g2 * t * t * path.reflected * logistic(path) * S(cos_h);
+    return hair_attenuations(path.reflected, path.transmitted, S(S(2) * sigma_a * path.chord))[3] *
+           S(cos_h * 0.5 / std::numbers::pi);
+  }
+
+ private:
+  S logistic(const FibrePath<S>& path) const {
+    const S e = exp(S(-azimuth_distance(S(double(p)), phi, path.gamma_i, path.gamma_t) / s));
+    return peak * e / squared(S(S(1) + e));
   }
 };
 
-// Breakpoints for the integral over gamma: between two of them the integrand has no kink, and no peak but at an end.
+// The range of gamma in pieces that hold no kink of the integrand, and no peak but at an end; those that matter first.
 class FarPieces {
  public:
-  static constexpr int kMost = 512;
+  static constexpr int kMost = 192;
+  struct Piece {
+    double low, high;
+    double bound;  // the integral over it is at most so much
+  };
 
   // Of lobe p, light at cosine cos_theta, seen at azimuth phi, with a logistic of width s.
   FarPieces(int p, double phi, double s, double eta, double cos_theta) : p_(p), s_(s) {
@@ -46,9 +60,10 @@ class FarPieces {
     }
     for (int i = 0; i < 3; ++i) add_targets(sections[i], sections[i + 1], phi);
     std::sort(at_, at_ + count_);
+    make_pieces(phi);
   }
-  int count() const { return count_; }
-  double operator[](int i) const { return at_[i]; }
+  const Piece* begin() const { return pieces_; }
+  const Piece* end() const { return pieces_ + piece_count_; }
 
  private:
   static constexpr double kEnd = std::numbers::pi / 2;
@@ -68,7 +83,7 @@ class FarPieces {
   void add_around(double gamma) {
     add(gamma);
     const double width = s_ / std::max(std::abs(slope(gamma)), std::sqrt(s_));
-    for (double d = 4 * width; d < 2 * kEnd; d *= 4) {
+    for (double d = 4 * width; d > 0 && d < 2 * kEnd; d *= 4) {
       add(gamma - d);
       add(gamma + d);
     }
@@ -79,29 +94,51 @@ class FarPieces {
     const double at_low = deflection(low), at_high = deflection(high);
     const double least = std::min(at_low, at_high), most = std::max(at_low, at_high);
     for (double k = std::ceil((least - phi) / std::numbers::pi); phi + k * std::numbers::pi <= most; ++k) {
-      const double target = phi + k * std::numbers::pi;
-      double a = low, b = high;
-      for (int i = 0; i < 60 && b - a > 1e-14; ++i) {  // halving, as the slope may vanish at an end
-        const double middle = 0.5 * (a + b);
-        ((deflection(middle) < target) == (at_low < at_high) ? a : b) = middle;
-      }
-      if (std::fmod(k, 2) == 0) add_around(0.5 * (a + b));
-      else add(0.5 * (a + b));
+      const double gamma = find(phi + k * std::numbers::pi, low, high, at_high > at_low);
+      if (std::fmod(k, 2) == 0) add_around(gamma);
+      else add(gamma);
     }
   }
+  // Phi(gamma) = target, by Newton's steps, and by halving where one leaves the bracket.
+  double find(double target, double low, double high, bool rising) const {
+    double gamma = 0.5 * (low + high);
+    for (int i = 0; i < 60 && high - low > 1e-14; ++i) {
+      const double over = deflection(gamma) - target, step = over / slope(gamma);
+      ((over > 0) == rising ? high : low) = gamma;
+      const double next = gamma - step;
+      const bool inside = next > low && next < high;
+      if (inside && std::abs(step) < 1e-14) return next;
+      gamma = inside ? next : 0.5 * (low + high);
+    }
+    return gamma;
+  }
+  // The attenuation is at most 1, and the logistic at most what it is at the end that is nearer to its peak.
+  void make_pieces(double phi) {
+    const double peak = 1 / (s_ * std::tanh(std::numbers::pi / (2 * s_)));
+    double before = 0;
+    for (int i = 0; i < count_; ++i) {
+      const double e = std::exp(-std::abs(std::remainder(phi - deflection(at_[i]), 2 * std::numbers::pi)) / s_);
+      const double here = peak * e / ((1 + e) * (1 + e));
+      if (i > 0 && at_[i] > at_[i - 1])
+        pieces_[piece_count_++] = {at_[i - 1], at_[i], std::max(here, before) * (at_[i] - at_[i - 1])};
+      before = here;
+    }
+    std::sort(pieces_, pieces_ + piece_count_, [](const Piece& a, const Piece& b) { return a.bound > b.bound; });
+  }
 
-  int p_, count_ = 0;
+  int p_, count_ = 0, piece_count_ = 0;
   double s_, ratio_ = 1;
   double at_[kMost];
+  Piece pieces_[kMost];
 };
 
 // Gauss-Kronrod rule of 7 and 15 points on an interval: the integral and an estimate of its error.
 template <Scalar S>
 struct FarPiece {
-  double low = 0, high = 0, error = 0;
-  S sum = S(0.0);
+  double low, high, error;
+  S sum;
 
-  FarPiece() = default;
+  FarPiece() {}  // NOLINT(cppcoreguidelines-pro-type-member-init): rows of a stack that are never read
   FarPiece(const FarLobe<S>& lobe, double low_, double high_) : low(low_), high(high_) {
     // clang-format off
     constexpr double kNodes[8]{
@@ -144,35 +181,38 @@ S hair_far(int p, const S& phi, const S& s, const S& sigma_a, const S& eta, cons
   const auto value = [](const S& x) { return double(Arithmetic<S>::value(x)); };
   const FarLobe<S> lobe{p, phi, s, sigma_a, eta, cos_theta};
   // Longer paths have neither a peak nor a cut.
-  const FarPieces breaks(p == 3 ? 0 : p, value(phi), p == 3 ? 10 : value(s), value(eta), value(cos_theta));
-  constexpr int kMost = 2 * FarPieces::kMost;
-  FarPiece<S> pieces[kMost];
-  int count = 0;
+  const FarPieces all(p == 3 ? 0 : p, value(phi), p == 3 ? 10 : value(s), value(eta), value(cos_theta));
+  double left = 0;
+  for (const FarPieces::Piece& piece : all) left += piece.bound;
+  std::array<FarPiece<S>, 3 * FarPieces::kMost> pieces;
+  std::size_t count = 0;
   double total = 0, error = 0;
-  for (int i = 0; i + 1 < breaks.count(); ++i) {
-    if (!(breaks[i + 1] > breaks[i])) continue;
-    pieces[count] = FarPiece<S>(lobe, breaks[i], breaks[i + 1]);
+  for (const FarPieces::Piece& piece : all) {
+    if (left < 0.01 * tolerance * total) break;
+    pieces[count] = FarPiece<S>(lobe, piece.low, piece.high);
     total += value(pieces[count].sum);
     error += pieces[count++].error;
+    left -= piece.bound;
   }
-  std::make_heap(pieces, pieces + count);
-  while (error > tolerance * total && count < kMost) {
-    std::pop_heap(pieces, pieces + count);
+  const auto first = pieces.begin();
+  std::make_heap(first, first + count);
+  while (error > tolerance * total && count < pieces.size()) {
+    std::pop_heap(first, first + count);
     const FarPiece<S> worst = pieces[--count];
     const double middle = 0.5 * (worst.low + worst.high);
     if (!(middle > worst.low && middle < worst.high)) break;
     for (const auto& half : {FarPiece<S>(lobe, worst.low, middle), FarPiece<S>(lobe, middle, worst.high)}) {
       pieces[count++] = half;
-      std::push_heap(pieces, pieces + count);
+      std::push_heap(first, first + count);
     }
     total = error = 0;
-    for (int i = 0; i < count; ++i) {
+    for (std::size_t i = 0; i < count; ++i) {
       total += value(pieces[i].sum);
       error += pieces[i].error;
     }
   }
   S sum = S(0.0);
-  for (int i = 0; i < count; ++i) sum += pieces[i].sum;
+  for (std::size_t i = 0; i < count; ++i) sum += pieces[i].sum;
   return S(sum * S(0.5));
 }
 
