@@ -27,40 +27,38 @@ namespace xsimd {
 namespace types {
 XSIMD_DECLARE_SIMD_REGISTER_ALIAS(likeness::catalog::Baseline, sse2);
 }
-namespace kernel {
 
 // a b + c of floats: the product is exact in double, so what is left is one rounding to double (which the rounding to
 // float hides, but for one case in 2^29) and one to float.
-template <class A>
-batch<float, A> fused(const batch<float, A>& a, const batch<float, A>& b, const batch<float, A>& c) {
+template <class B>
+B fused_through_double(const B& a, const B& b, const B& c) {
   const auto low = [](__m128 x) { return _mm_cvtps_pd(x); };
   const auto high = [](__m128 x) { return _mm_cvtps_pd(_mm_movehl_ps(x, x)); };
   const __m128d l = _mm_add_pd(_mm_mul_pd(low(a), low(b)), low(c));
   const __m128d h = _mm_add_pd(_mm_mul_pd(high(a), high(b)), high(c));
   return _mm_movelh_ps(_mm_cvtpd_ps(l), _mm_cvtpd_ps(h));
 }
-template <class A>
-batch<float, A> fma(const batch<float, A>& a, const batch<float, A>& b, const batch<float, A>& c,
-                    requires_arch<likeness::catalog::Baseline>) noexcept {
-  return fused(a, b, c);
+
+// Specializations of the functions that the library's own polynomials call. Overloads of the kernels below those would be
+// declared too late: the library names them with their namespace, which is looked up where it is written.
+using FloatBaseline = batch<float, likeness::catalog::Baseline>;
+template <>
+inline FloatBaseline fma(const FloatBaseline& a, const FloatBaseline& b, const FloatBaseline& c) noexcept {
+  return fused_through_double(a, b, c);
 }
-template <class A>
-batch<float, A> fms(const batch<float, A>& a, const batch<float, A>& b, const batch<float, A>& c,
-                    requires_arch<likeness::catalog::Baseline>) noexcept {
-  return fused(a, b, -c);
+template <>
+inline FloatBaseline fms(const FloatBaseline& a, const FloatBaseline& b, const FloatBaseline& c) noexcept {
+  return fused_through_double(a, b, FloatBaseline(-c));
 }
-template <class A>
-batch<float, A> fnma(const batch<float, A>& a, const batch<float, A>& b, const batch<float, A>& c,
-                     requires_arch<likeness::catalog::Baseline>) noexcept {
-  return fused(-a, b, c);
+template <>
+inline FloatBaseline fnma(const FloatBaseline& a, const FloatBaseline& b, const FloatBaseline& c) noexcept {
+  return fused_through_double(FloatBaseline(-a), b, c);
 }
-template <class A>
-batch<float, A> fnms(const batch<float, A>& a, const batch<float, A>& b, const batch<float, A>& c,
-                     requires_arch<likeness::catalog::Baseline>) noexcept {
-  return fused(-a, b, -c);
+template <>
+inline FloatBaseline fnms(const FloatBaseline& a, const FloatBaseline& b, const FloatBaseline& c) noexcept {
+  return fused_through_double(FloatBaseline(-a), b, FloatBaseline(-c));
 }
 
-}  // namespace kernel
 }  // namespace xsimd
 #endif
 
