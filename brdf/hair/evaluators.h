@@ -1,5 +1,8 @@
 #pragma once
 
+#include <utility>
+
+#include "brdf/hair/dual_evaluators.h"
 #include "brdf/hair/fibre_evaluators.h"
 
 // What brdf/hair computes, as rows of `likeness eval`.
@@ -108,6 +111,13 @@ struct HairFar {
   }
 };
 
-using HairEvaluators = std::tuple<HairMp, HairGauss, HairNear, HairFar, HairFibreRow, HairFibreFarRow, KajiyaKayRow>;
+using HairReferenceEvaluators =
+    std::tuple<HairMp, HairGauss, HairNear, HairFar, HairFibreRow, HairFibreFarRow, KajiyaKayRow>;
+
+// A tuple's elements after another's.
+template <class... Tuples>
+using Joined = decltype(std::tuple_cat(std::declval<Tuples>()...));
+
+using HairEvaluators = Joined<HairReferenceEvaluators, HairDualEvaluators>;
 
 }  // namespace likeness::brdf

@@ -5,23 +5,20 @@
 #include "brdf/grid.h"
 #include "brdf/hair/azimuthal.h"
 
-// What a fibre does on the average over its width: how much light goes on (the front half, more than a quarter turn
-// from the light's azimuth) and how much comes back, lobe by lobe. Dual scattering knows a fibre by this alone.
+// What a fibre does on the average over its width and over light from all azimuths of one side: how much goes on to the
+// other side and how much comes back, lobe by lobe. Dual scattering knows a fibre by this alone.
 namespace likeness::brdf {
 
 // Energies of one lobe over all inclinations, [1]: the longitudinal term's integral is 1, so they are integrals of the
-// far-field azimuthal term N_p over phi.
+// far-field azimuthal term N_p over phi. Light comes evenly from half a circle of azimuths and leaves over the other half
+// (forward) or the same (backward): of what turns by phi, |phi| / pi goes on. Zinke 2008, mean attenuation; it is the
+// average over phi_i in the Enemies slides.
 template <Scalar S>
 struct LobeScattering {
   S forward, backward;           // phi beyond and within a quarter turn of the light; their sum is the lobe's energy
   S first_cosine, third_cosine;  // integral of N_p cos(phi) and of N_p cos(3 phi)
 };
 inline constexpr std::size_t kMeanValues = 4 * kHairLobes;
-
-// Integral of the trimmed logistic from -pi to x, |x| <= pi.
-inline double trimmed_logistic_integral(double x, double s) {
-  return 0.5 + 0.5 * std::tanh(x / (2 * s)) / std::tanh(std::numbers::pi / (2 * s));
-}
 
 // Characteristic function of the trimmed logistic at a whole frequency: integral of D(x) cos(k x), by Simpson's rule
 // over what is not below 1e-17 of the peak.
@@ -36,14 +33,17 @@ inline double trimmed_logistic_cosine(int k, double s) {
   return 2 * sum * end / (3 * kSteps);
 }
 
-// The share of a lobe centred at `centre` (any angle) within a quarter turn of 0.
+// The share of a lobe, a trimmed logistic centred at `centre` (any angle), that comes back: the mean of 1 - |phi| / pi.
+// By parts: of the logistic's integral C(x), whose own integral K has a closed form.
 inline double backward_share(double centre, double s) {
   constexpr double kPi = std::numbers::pi;
   const double c = std::abs(centre - 2 * kPi * std::floor(centre / (2 * kPi) + 0.5));  // in [0, pi]
-  // x = phi - centre runs from -pi/2 - c to pi/2 - c, and on from the other end where that leaves [-pi, pi].
-  const double low = -kPi / 2 - c, high = kPi / 2 - c;
-  const double within = trimmed_logistic_integral(high, s) - trimmed_logistic_integral(std::max(low, -kPi), s);
-  return low >= -kPi ? within : within + 1 - trimmed_logistic_integral(low + 2 * kPi, s);
+  const auto k = [&](double x) {
+    const double y = std::abs(x) / (2 * s);  // ln(2 cosh y) = y + log1p(exp(-2 y))
+    return 0.5 * x + s * (y + std::log1p(std::exp(-2 * y))) / std::tanh(kPi / (2 * s));
+  };
+  const double rising = (k(-c) - k(-kPi)) + (k(kPi) - k(kPi - c)), falling = k(kPi - c) - k(-c);
+  return (c - rising + falling) / kPi;
 }
 
 // A width of the logistic with its Fourier coefficients, which cost more than anything else here.
