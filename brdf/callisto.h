@@ -189,14 +189,16 @@ struct Callisto {
   Rgb<S> eval(const Vec3<S>& to_light, const Vec3<S>& to_view) const { return eval(Geometry<S>(to_light, to_view)); }
 
   // What is sampled: the diffuse by its cosine, each GGX lobe by its normals, in proportion to estimates of what they
-  // return to this view. The diffuse rises are taken where they peak, in the mirror direction and towards the viewer.
+  // return to this view. The diffuse rises are taken where they peak, in the mirror direction and towards the viewer;
+  // their mean and not their product, because one has faded where the other peaks.
   Mixture<S, CosineLobe<S>, GgxLobe<S>, GgxLobe<S>> lobes(const Vec3<S>& to_view) const {
     const S versine = S(1) - clamp01(to_view.z), r = remap(specular_fresnel_falloff);
     const S rise = power5(versine, remap(diffuse_fresnel_falloff));
     const S retro = power5(versine, remap(retroreflection_falloff));
     const S rho = mean(base_color);
-    const S diffuse = rho * (S(1) - metallic) * mix(S(1), S(diffuse_fresnel * mean(diffuse_fresnel_tint)), rise) *
-                      mix(S(1), S(retroreflection * mean(retroreflection_tint)), retro);
+    const S facing = mix(S(1), S(diffuse_fresnel * mean(diffuse_fresnel_tint)), rise);
+    const S backwards = mix(S(1), S(retroreflection * mean(retroreflection_tint)), retro);
+    const S diffuse = rho * (S(1) - metallic) * S(0.5) * (facing + backwards);
     const S f0 = mix(S(constant<S>(0.08) * specular), rho, metallic);
     const S glossy = mix(f0, S(1), S(clamp01(S(S(2) - r)) * power5(usual_versine(to_view), r)));
     return Mixture<S, CosineLobe<S>, GgxLobe<S>, GgxLobe<S>>(

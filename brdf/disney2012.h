@@ -31,8 +31,8 @@ struct BerryLobe {
     const S log_alpha2 = log(S(alpha * alpha)), angle = constant<S>(2 * std::numbers::pi) * u;
     const S cos2 = S(expm1(S((S(1) - v) * log_alpha2))) / S(expm1(log_alpha2));
     const S sin2 = alpha * alpha * S(expm1(S(-v * log_alpha2))) / (S(1) - alpha * alpha);
-    const S sine = sqrt(sin2);
-    return mirrored(to_view, Vec3<S>(S(sine * cos(angle)), S(sine * sin(angle)), S(sqrt(cos2))));
+    const S one = sin2 + cos2, sine = sqrt(S(sin2 / one));  // 1 but for roundings, which mirroring would multiply
+    return mirrored(to_view, Vec3<S>(S(sine * cos(angle)), S(sine * sin(angle)), S(sqrt(S(cos2 / one)))));
   }
   S density(const Geometry<S>& g) const {
     return gtr1_distribution(alpha, g.cos_h, g.sin2_h) * g.cos_h / larger(S(S(4) * g.cos_d), constant<S>(kTiny<S>));

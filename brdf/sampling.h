@@ -37,11 +37,14 @@ concept Sampled = requires(const M& model, const Vec3<double>& w, double u) {
   { model.pdf(w, w) } -> std::same_as<double>;
 };
 
-// cos_i / pi, for what scatters evenly. No direction is proposed below the horizon.
+// cos_i / pi, for what scatters evenly. No direction is proposed below the horizon, and none above it has no density: the
+// cosine is kept above kTiny, because a denormal one times 1 / pi would be 0.
 template <Scalar S>
 struct CosineLobe {
   Vec3<S> light(const Vec3<S>&, const S& u, const S& v) const { return cosine_hemisphere(u, v); }
-  S density(const Geometry<S>& g) const { return g.cos_i * constant<S>(std::numbers::inv_pi); }
+  S density(const Geometry<S>& g) const {
+    return larger(g.cos_i, constant<S>(kTiny<S>)) * constant<S>(std::numbers::inv_pi);
+  }
 };
 
 // Lobes in proportion to `energies`, which are >= 0. If all are 0 the last lobe is taken.
