@@ -221,10 +221,30 @@ TEST(MeanScatter, OfNothingIsNothing) {
 }
 
 TEST(MeanScatter, AddsTheSpreadOfTheShifts) {
-  const auto mean = mean_of_lobes<double>({0.25, 0.25, 0, 0}, {-0.1, 0.1, 0, 0}, {0.04, 0.04, 0, 0});
+  const auto mean = mean_of_lobes<double>({0.25, 0.25, 0, 0}, {0.1, 0.3, 0, 0}, {0.04, 0.04, 0, 0});
   EXPECT_NEAR(mean.energy, 0.5, 1e-15);
-  EXPECT_NEAR(mean.shift, 0, 1e-15);
+  EXPECT_NEAR(mean.shift, 0.2, 1e-15);
   EXPECT_NEAR(mean.variance, 0.04 + 0.01, 1e-15);
+}
+
+// Against the far field, averaged over light from a whole half circle of azimuths.
+TEST(MeanScattering, OfScatteredLightIsTheFarFieldAveragedOverHalfACircle) {
+  const double s = 0.3, sigma_a = 0.2, cosine = 0.9;
+  double out[kMeanValues];
+  mean_scattering(cosine, 1.55, LogisticWidth(s), sigma_a, 96, out);
+  for (const int p : {0, 1, 2}) {
+    const LobeScattering<double> lobe{out[4 * p], out[4 * p + 1], out[4 * p + 2], out[4 * p + 3]};
+    for (const double phi : {0.0, 0.8, 1.6, 2.4, 3.1}) {
+      const int steps = 200;
+      double mean = 0;
+      for (int i = 0; i < steps; ++i) {
+        const double from = ((i + 0.5) / steps - 0.5) * std::numbers::pi;
+        mean += hair_far(p, phi - from, s, sigma_a, 1.55, cosine, 1e-6) / steps;
+      }
+      const double energy = lobe.forward + lobe.backward;
+      EXPECT_NEAR(scattered_azimuthal(lobe, std::cos(phi)), mean, 0.01 * energy) << p << " " << phi;  // 5th coefficient
+    }
+  }
 }
 
 // ---- the whole.
