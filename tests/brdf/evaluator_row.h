@@ -15,9 +15,9 @@ namespace likeness::brdf {
 
 using Row = std::map<std::string, double>;
 
-// Columns by name, of a file in shared/reference. Empty if there is no such file.
-inline std::vector<Row> read_reference(const std::string& name) {
-  std::ifstream file(std::string(LIKENESS_SHARED_DIR) + "/reference/" + name);
+// Columns by name, of a table in CSV. Empty if there is no such file.
+inline std::vector<Row> read_rows(const std::string& path) {
+  std::ifstream file(path);
   std::vector<std::string> names;
   std::vector<Row> rows;
   for (std::string line, cell; std::getline(file, line);) {
@@ -33,6 +33,11 @@ inline std::vector<Row> read_reference(const std::string& name) {
     }
   }
   return rows;
+}
+
+// The same, of a file in shared/reference.
+inline std::vector<Row> read_reference(const std::string& name) {
+  return read_rows(std::string(LIKENESS_SHARED_DIR) + "/reference/" + name);
 }
 
 // The inputs of a form by channel, from a row: a column holds for all channels of its parameter, what is missing has its
