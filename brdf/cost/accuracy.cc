@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <stdexcept>
 
 namespace likeness::cost {
 
@@ -25,7 +26,8 @@ Columns columns_of(const Family& family, const Rung& rung, const catalog::Entry&
   columns.of_float.assign(form.count, std::vector<float>(draws.count));
   for (std::size_t i = 0; i < draws.count; ++i) {
     std::vector<double> row = defaults;
-    rung.inputs(draws.rows.data() + i * family.draw_names.size(), row.data());
+    Inputs inputs(form, row.data());
+    rung.inputs(draws.rows.data() + i * family.draw_names.size(), inputs);
     for (std::size_t k = 0; k < form.count; ++k) {
       columns.of_double[k][i] = row[k];
       columns.of_float[k][i] = static_cast<float>(row[k]);
@@ -52,17 +54,17 @@ std::vector<std::vector<double>> outputs(const catalog::Entry& entry, const cata
 
 }  // namespace
 
-std::vector<double> values_of(const Family& family, const Rung& rung, const catalog::Entry& entry, const Draws& draws,
-                              const Columns& columns, Precision precision) {
+std::vector<double> values_of(const Rung& rung, const catalog::Entry& entry, const Draws& draws, const Columns& columns,
+                              Precision precision) {
   const auto out = precision == Precision::kDouble  ? outputs(entry, entry.in_double, columns.of_double, draws.count)
                    : precision == Precision::kFloat ? outputs(entry, entry.in_float, columns.of_float, draws.count)
                                                     : outputs(entry, entry.in_batches, columns.of_float, draws.count);
-  std::vector<double> values(draws.count), row(out.size());
-  for (std::size_t i = 0; i < draws.count; ++i) {
-    for (std::size_t k = 0; k < out.size(); ++k) row[k] = out[k][i];
-    values[i] = rung.value ? rung.value(draws.rows.data() + i * family.draw_names.size(), row.data()) : row[0];
+  std::size_t at = 0;
+  for (const brdf::Output& output : entry.outputs) {
+    if (rung.output.empty() || output.name == rung.output) return out[at];
+    at += static_cast<std::size_t>(output.channels);
   }
-  return values;
+  throw std::logic_error(std::string(entry.name) + " has no output " + rung.output);
 }
 
 Accuracy accuracy_of(const Family& family, const Draws& draws, const std::vector<double>& values,

@@ -27,8 +27,8 @@ struct Columns {
 Columns columns_of(const Family& family, const Rung& rung, const catalog::Entry& entry, const Draws& draws);
 
 // The compared value of each draw.
-std::vector<double> values_of(const Family& family, const Rung& rung, const catalog::Entry& entry, const Draws& draws,
-                              const Columns& columns, Precision precision);
+std::vector<double> values_of(const Rung& rung, const catalog::Entry& entry, const Draws& draws, const Columns& columns,
+                              Precision precision);
 
 struct Accuracy {
   double rms = 0;     // root of the mean squared difference, over that of the reference's values

@@ -4,7 +4,10 @@
 #include <functional>
 #include <random>
 #include <string>
+#include <string_view>
 #include <vector>
+
+#include "brdf/catalog/catalog.h"
 
 // What is compared: for each family of evaluators the ladder from its cheapest form to its reference, over inputs that
 // are drawn from a stated distribution.
@@ -20,14 +23,26 @@ class Random {
   std::mt19937_64 engine_;
 };
 
+// The inputs of an evaluator's first form, by name; they hold the defaults of its table until they are set. A name of a
+// color sets its three channels. A name that the evaluator has not is std::logic_error.
+class Inputs {
+ public:
+  Inputs(const catalog::Form& form, double* values) : form_(form), values_(values) {}
+  void set(std::string_view name, double value);
+  void set(std::string_view name, double r, double g, double b);
+
+ private:
+  double* find(std::string_view name, int& channels);
+  const catalog::Form& form_;
+  double* values_;
+};
+
 // One form of a family's function: an evaluator of the catalog, and how a draw becomes its inputs.
 struct Rung {
   std::string label;      // what the reader sees
   std::string evaluator;  // name in the catalog
-  // Fills the inputs of the evaluator's first form, which hold the defaults of its table before the call.
-  std::function<void(const double* draw, double* in)> inputs;
-  // What is compared, from the evaluator's outputs; without it the first output.
-  std::function<double(const double* draw, const double* out)> value = {};
+  std::function<void(const double* draw, Inputs& in)> inputs;
+  std::string output = {};  // by name, the first channel of a color; empty: the first output
   bool is_reference = false;
   std::string note = {};  // what a reader should know of this form
 };

@@ -68,7 +68,8 @@ std::string section_of(const FamilyResult& result) {
   for (const Precision p : {Precision::kBatch, Precision::kFloat, Precision::kDouble})
     out += "<figure>" + pareto_figure(result, p) + "</figure>";
   out +=
-      "</div>\n<div class=\"scroll\"><table class=\"metrics\"><thead><tr><th></th><th>form</th><th>double, ns</th>"
+      "</div>\n<div class=\"scroll\"><table class=\"metrics\"><thead><tr><th style=\"min-width:0\"></th><th "
+      "style=\"min-width:12rem\">form</th><th>double, ns</th>"
       "<th>float, ns</th><th>batch, ns</th><th>instructions, batch</th><th>RMS error</th><th>worst error</th>" +
       std::string(family.energy_weight ? "<th>" + escape(family.energy_name) + ", worst bin</th>" : "") +
       "<th>dominated in batches by</th></tr></thead><tbody>\n" + rows_of(result) + "</tbody></table></div>\n";

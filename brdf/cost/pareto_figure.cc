@@ -13,7 +13,7 @@ using page::number;
 using page::svg_line;
 using page::svg_text;
 
-constexpr double kLeft = 46, kRight = 348, kTop = 22, kBottom = 238;
+constexpr double kLeft = 46, kRight = 340, kTop = 22, kBottom = 238;
 constexpr double kLeastError = 1e-8;  // smaller ones stand on the lowest line: a float cannot tell them apart
 
 // Decades that hold all values of a family, so that its three plots share their axes.

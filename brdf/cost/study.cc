@@ -93,13 +93,13 @@ Study run_study(const Options& options, const std::function<void(const std::stri
     const auto at =
         std::find_if(family.rungs.begin(), family.rungs.end(), [](const Rung& r) { return r.is_reference; });
     if (at == family.rungs.end()) throw std::logic_error("the family " + family.name + " has no reference");
-    const auto reference = values_of(family, *at, entry_of(*at), draws,
-                                     columns[f][std::size_t(at - family.rungs.begin())], Precision::kDouble);
+    const auto reference =
+        values_of(*at, entry_of(*at), draws, columns[f][std::size_t(at - family.rungs.begin())], Precision::kDouble);
     for (std::size_t i = 0; i < family.rungs.size(); ++i) {
       const catalog::Entry& entry = entry_of(family.rungs[i]);
       std::array<Cell, 3> cells;
       for (const Precision p : {Precision::kDouble, Precision::kFloat, Precision::kBatch}) {
-        const auto values = values_of(family, family.rungs[i], entry, draws, columns[f][i], p);
+        const auto values = values_of(family.rungs[i], entry, draws, columns[f][i], p);
         cells[std::size_t(p)].accuracy = accuracy_of(family, draws, values, reference);
       }
       const Columns& c = columns[f][i];

@@ -1,0 +1,153 @@
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+#include "brdf/cost/ladder.h"
+
+namespace likeness::cost {
+namespace {
+
+// ---- diffuse: a draw is alpha, then the light and the viewer as unit vectors.
+
+void set_vectors(const double* draw, Inputs& in) {
+  const char* names[]{"light_x", "light_y", "light_z", "view_x", "view_y", "view_z"};
+  for (int i = 0; i < 6; ++i) in.set(names[i], draw[1 + i]);
+}
+void set_base_alpha(const double* draw, Inputs& in) {
+  set_vectors(draw, in);
+  in.set("base_color", 1);
+  in.set("alpha", draw[0]);
+}
+void set_angles_alpha(const double* draw, Inputs& in) {
+  in.set("alpha", draw[0]);
+  in.set("theta_i", std::atan2(std::hypot(draw[1], draw[2]), draw[3]));
+  in.set("theta_o", std::atan2(std::hypot(draw[4], draw[5]), draw[6]));
+  in.set("phi", std::atan2(draw[2], draw[1]) - std::atan2(draw[5], draw[4]));
+}
+
+void cosine_direction(Random& random, double* w) {
+  const double r = std::sqrt(random.uniform()), phi = random.uniform(0, 2 * std::numbers::pi);
+  w[0] = r * std::cos(phi);
+  w[1] = r * std::sin(phi);
+  w[2] = std::sqrt(1 - r * r);
+}
+
+// ---- Fresnel: a draw is a cosine, then eta and k of a metal.
+
+double conductor(double cosine, double eta, double k) {
+  const std::complex<double> m(eta, k);
+  const std::complex<double> inner = std::sqrt(m * m - (1 - cosine * cosine));
+  const double s = std::norm((cosine - inner) / (cosine + inner));
+  const double p = std::norm((m * m * cosine - inner) / (m * m * cosine + inner));
+  return 0.5 * (s + p);
+}
+double f0_of(const double* draw) { return conductor(1, draw[1], draw[2]); }
+
+}  // namespace
+
+Family diffuse_family() {
+  Family family;
+  family.name = "diffuse";
+  family.title = "Diffuse reflection of rough surfaces";
+  family.text =
+      "A surface of Lambertian facets with GGX normals, unshadowed (Heitz 2014 with G2 = 1): what a rough diffuse "
+      "normal "
+      "map looks like from afar. Lambert, Burley and Callisto were made for other ends and know nothing of its alpha; "
+      "Proxima "
+      "was made for it.";
+  family.distribution = "alpha uniform in [0, 1]; light and viewer with the density of the cosine over the hemisphere";
+  family.draw_names = {"alpha", "light_x", "light_y", "light_z", "view_x", "view_y", "view_z"};
+  family.draw = [](Random& random, double* draw) {
+    draw[0] = random.uniform();
+    cosine_direction(random, draw + 1);
+    cosine_direction(random, draw + 4);
+  };
+  family.energy_name = "albedo";
+  family.energy_weight = [](const double*) { return 1.0; };  // the light's density is the cosine
+  family.energy_bins = 16;
+  family.energy_bin = [](const double* d) {
+    return std::size_t(4 * std::min(d[0], 0.999)) * 4 + std::size_t(4 * std::min(d[6], 0.999));
+  };
+  family.rungs = {
+      {.label = "Lambert",
+       .evaluator = "lambert",
+       .inputs = [](const double* d, Inputs& in) { set_vectors(d, in), in.set("base_color", 1); }},
+      {.label = "Oren-Nayar (Fujii)",
+       .evaluator = "oren_nayar",
+       .inputs = [](const double* d,
+                    Inputs& in) { set_vectors(d, in), in.set("base_color", 1), in.set("sigma", d[0]); },
+       .note = "sigma = alpha"},
+      {.label = "Proxima", .evaluator = "proxima", .inputs = set_base_alpha},
+      {.label = "our fit", .evaluator = "microfacet_diffuse_fit", .inputs = set_base_alpha},
+      {.label = "Burley 2012",
+       .evaluator = "burley_diffuse",
+       .inputs = [](const double* d,
+                    Inputs& in) { set_vectors(d, in), in.set("base_color", 1), in.set("roughness", std::sqrt(d[0])); }},
+      {.label = "Callisto, diffuse part",
+       .evaluator = "callisto",
+       .inputs =
+           [](const double* d, Inputs& in) {
+             set_vectors(d, in);
+             in.set("base_color", 1);
+             in.set("specular", 0);
+             in.set("specular_fresnel_falloff", 0);
+           },
+       .note = "at its defaults, which are Lambert's; the time is that of the whole model"},
+      {.label = "3D table, phi = 0", .evaluator = "microfacet_diffuse_lut", .inputs = set_angles_alpha},
+      {.label = "3D table, three azimuths", .evaluator = "microfacet_diffuse_azimuth_lut", .inputs = set_angles_alpha},
+      {.label = "quadrature", .evaluator = "microfacet_diffuse", .inputs = set_angles_alpha, .is_reference = true},
+  };
+  return family;
+}
+
+Family fresnel_family() {
+  Family family;
+  family.name = "fresnel";
+  family.title = "Fresnel reflectance of metals";
+  family.text =
+      "Reflectance at an angle, from the complex index of refraction. Each form is given the exact reflectance at "
+      "normal "
+      "incidence; F82 also the exact one at 82 degrees.";
+  family.distribution =
+      "cosine uniform in [0, 1]; eta uniform in [0.15, 3], k uniform in [1.5, 7]: the range of common metals";
+  family.draw_names = {"cos_i", "eta", "k"};
+  family.draw = [](Random& random, double* draw) {
+    draw[0] = random.uniform();
+    draw[1] = random.uniform(0.15, 3);
+    draw[2] = random.uniform(1.5, 7);
+  };
+  family.energy_name = "hemispherical reflectance";
+  family.energy_weight = [](const double* d) { return d[0]; };
+  family.energy_bins = 9;
+  family.energy_bin = [](const double* d) {
+    return std::size_t(3 * std::min((d[1] - 0.15) / 2.85, 0.999)) * 3 +
+           std::size_t(3 * std::min((d[2] - 1.5) / 5.5, 0.999));
+  };
+  const auto schlick = [](const double* d, Inputs& in) { in.set("cos_i", d[0]), in.set("f0", f0_of(d)); };
+  family.rungs = {
+      {.label = "constant f0",
+       .evaluator = "schlick_falloff",
+       .inputs = [=](const double* d, Inputs& in) { schlick(d, in), in.set("specular_fresnel_falloff", 0); },
+       .note = "Callisto's falloff at 0; the time is that of any falloff"},
+      {.label = "Schlick", .evaluator = "schlick", .inputs = schlick},
+      {.label = "Callisto's falloff, 0.47",
+       .evaluator = "schlick_falloff",
+       .inputs = [=](const double* d, Inputs& in) { schlick(d, in), in.set("specular_fresnel_falloff", 0.47); },
+       .note = "an artist's control, not a fit of metals: the power is 5.3"},
+      {.label = "F82",
+       .evaluator = "f82",
+       .inputs =
+           [=](const double* d, Inputs& in) {
+             schlick(d, in);
+             const double f0 = f0_of(d), rise = std::pow(1 - 1.0 / 7, 5);
+             in.set("tint", std::min(1.0, conductor(1.0 / 7, d[1], d[2]) / (f0 + (1 - f0) * rise)));
+           }},
+      {.label = "exact",
+       .evaluator = "fresnel_conductor",
+       .inputs = [](const double* d, Inputs& in) { in.set("cos_i", d[0]), in.set("eta", d[1]), in.set("k", d[2]); },
+       .is_reference = true},
+  };
+  return family;
+}
+
+}  // namespace likeness::cost
