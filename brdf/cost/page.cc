@@ -102,8 +102,8 @@ std::string page_of(const Study& study) {
       "double and batch differ by the rounding of floats, of inputs too.</dd><dt>Instructions</dt><dd>" +
       std::string(m.has_counters
                       ? "counted by the processor in user space; how many it completes in a cycle tells what "
-                        "limits a loop: near its width of 4 or more the number of instructions, far below it "
-                        "waiting for results, divisions, roots or tables."
+                        "limits a loop: 'issue', at 2.5 and more, their number; 'waits', below 1.5, results of "
+                        "earlier ones, divisions, roots or tables."
                       : "this machine offers no counters to read.") +
       "</dd></dl>\n";
   for (const FamilyResult& result : study.families) out += section_of(result);
