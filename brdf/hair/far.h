@@ -44,7 +44,7 @@ class FarPieces {
     double bound;  // the integral over it is at most so much
   };
 
-  // Of lobe p, light at cosine cos_theta, seen at azimuth phi, with a logistic of width s.
+  // Of lobe p, light at cosine cos_theta, seen at azimuth phi in [-pi, pi], with a logistic of width s.
   FarPieces(int p, double phi, double s, double eta, double cos_theta) : p_(p), s_(s) {
     const double outer = std::sqrt((eta - 1) * (eta + 1) + cos_theta * cos_theta);
     ratio_ = outer > 0 ? cos_theta / outer : 1;  // sin gamma_t / sin gamma_i
@@ -181,7 +181,8 @@ S hair_far(int p, const S& phi, const S& s, const S& sigma_a, const S& eta, cons
   const auto value = [](const S& x) { return double(Arithmetic<S>::value(x)); };
   const FarLobe<S> lobe{p, phi, s, sigma_a, eta, cos_theta};
   // Longer paths have neither a peak nor a cut.
-  const FarPieces all(p == 3 ? 0 : p, value(phi), p == 3 ? 10 : value(s), value(eta), value(cos_theta));
+  const FarPieces all(p == 3 ? 0 : p, std::remainder(value(phi), 2 * std::numbers::pi), p == 3 ? 10 : value(s),
+                      value(eta), value(cos_theta));
   double left = 0;
   for (const FarPieces::Piece& piece : all) left += piece.bound;
   std::array<FarPiece<S>, 3 * FarPieces::kMost> pieces;

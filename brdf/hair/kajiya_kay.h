@@ -27,7 +27,7 @@ S power_of_cosine(const S& versine, const S& n) {
 // Source      Kajiya and Kay 1989; the slide 'Phenomenological' of the Enemies talk: S = k_d + k_s cos^n / cos(theta_i),
 //             with dual highlights and a transmission term, which it does not write out.
 // Departures  the terms are scaled so that each weight is the energy of its term seen across the fibre (within 2.4 % at
-//             n = 0, 0.1 % above n = 10); the transmission's form is ours.
+//             n = 0, 1 % at 1, 0.1 % above 10); the transmission's form is ours.
 // Does not    conserve or bound energy but by its weights; is not reciprocal (the 1 / cos(theta_i)).
 template <Scalar S>
 struct KajiyaKay {
