@@ -16,7 +16,8 @@
 namespace likeness::brdf {
 
 // w / A of a radius that was drawn for the shape s_drawn, [1]. With s_drawn of the widest channel (BurleyDisk::widest) no
-// weight exceeds s / s_drawn. At depth 0 and s = s_drawn it is 1 at every r, and it falls as exp(-s |depth| / 3).
+// weight exceeds s / s_drawn. At depth 0 and s = s_drawn it is 1 at every r, and it falls as exp(-s |depth| / 3). Where s
+// is less than s_drawn it grows with r without end; it is held below exp(60).
 //
 // R and p are divided before either rounds to 0: with D = sqrt(r^2 + d^2),
 //     w / A = s r / (s_drawn D) exp(-e / 3) (1 + exp(-2 s D / 3)) / (1 + exp(-2 s_drawn r / 3))
@@ -34,7 +35,7 @@ struct BilateralWeight {
   }
   S value() const {
     const S third = constant<S>(-1.0 / 3.0), two = S(2) * third;
-    return scale * exp(S(excess * third)) * (S(1) + exp(S(x * two))) / (S(1) + exp(S(x_drawn * two)));
+    return scale * exp(smaller(S(excess * third), S(60))) * (S(1) + exp(S(x * two))) / (S(1) + exp(S(x_drawn * two)));
   }
 };
 

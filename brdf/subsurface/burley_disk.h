@@ -30,18 +30,22 @@ struct BurleyDisk {
   // (SIGGRAPH 2018 Advances). Weights reach s / widest, near the point of entry.
   DiskSample<S> sample_widest(const S& u, const S& v) const {
     const S a = widest(), r = burley_icdf(u, S(S(1) - u)) / a, over = S(1) / relative(a, r);
-    return placed(r, v, pdf_widest(r), Rgb<S>(relative(s.r, r), relative(s.g, r), relative(s.b, r)) * over);
+    const Rgb<S> weight = Rgb<S>(relative(s.r, r), relative(s.g, r), relative(s.b, r)) * over;
+    return {S(r * cos(angle(v))), S(r * sin(angle(v))), r, pdf_widest(r), weight};
   }
   S pdf_widest(const S& r) const { return burley_sum(S(widest() * r)) * widest() / circle(r); }
 
   // A third of the radii is drawn for each channel. The density is the mean of the three, so no weight exceeds 3.
   // Source  the balance heuristic: Veach 1997, 'Robust Monte Carlo Methods for Light Transport Simulation', 9.2.
   DiskSample<S> sample(const S& choice, const S& u, const S& v) const {
+    return sample(choice, u, S(S(1) - u), S(cos(angle(v))), S(sin(angle(v))));
+  }
+  // The same with 1 - u and the direction given apart, for who knows them with more digits.
+  DiskSample<S> sample(const S& choice, const S& u, const S& rest, const S& along, const S& across) const {
     const S after_red = pick(greater(constant<S>(2.0 / 3.0), choice), s.g, s.b);
-    const S a = pick(greater(constant<S>(1.0 / 3.0), choice), s.r, after_red);
-    const S r = burley_icdf(u, S(S(1) - u)) / a;
+    const S a = pick(greater(constant<S>(1.0 / 3.0), choice), s.r, after_red), r = burley_icdf(u, rest) / a;
     const Rgb<S> seen(relative(s.r, r), relative(s.g, r), relative(s.b, r));
-    return placed(r, v, pdf(r), seen * S(S(3) / (seen.r + seen.g + seen.b)));
+    return {S(r * along), S(r * across), r, pdf(r), seen * S(S(3) / (seen.r + seen.g + seen.b))};
   }
   S pdf(const S& r) const {
     const S sum = s.r * burley_sum(S(s.r * r)) + s.g * burley_sum(S(s.g * r)) + s.b * burley_sum(S(s.b * r));
@@ -58,10 +62,7 @@ struct BurleyDisk {
     const S third = r * constant<S>(-1.0 / 3.0), a = widest();
     return c / a * exp(S((c - a) * third)) * (S(1) + exp(S(S(2) * c * third)));
   }
-  static DiskSample<S> placed(const S& r, const S& v, const S& pdf, const Rgb<S>& weight) {
-    const S angle = v * constant<S>(2 * std::numbers::pi);
-    return {S(r * cos(angle)), S(r * sin(angle)), r, pdf, weight};
-  }
+  static S angle(const S& v) { return v * constant<S>(2 * std::numbers::pi); }
 };
 
 }  // namespace likeness::brdf

@@ -146,7 +146,7 @@ struct BurleyShape : Plain<BurleyShape> {
   }
 };
 
-// R and CDF of kCount Gaussians from x, s and A.
+// R and CDF of kCount Gaussians from (s r)^2, s and A.
 template <int kCount, Scalar S>
 std::array<S, 2> gaussian_row(const S* f) {
   return {S(f[2] * f[1] * f[1] * gaussian_density_over_area<kCount>(f[0])), gaussian_cdf<kCount>(f[0])};
@@ -154,6 +154,15 @@ std::array<S, 2> gaussian_row(const S* f) {
 inline constexpr std::array kGaussianOutputs{
     Output{.name = "R", .unit = "1/length^2", .text = "as of burley_profile, without the delta at r = 0 of the single Gaussian"},
     Output{.name = "P", .text = "part of the light that leaves within r, the delta included"}};
+
+struct GaussianForm {
+  static constexpr const auto& kInputs = ProfileForm::kInputs;
+  template <Scalar S>
+  static void prepare(const S* in, S* features) {
+    ProfileForm::prepare(in, features);
+    features[0] = features[0] * features[0];
+  }
+};
 
 struct GaussianProfile {
   static constexpr std::string_view kName = "gaussian_profile";
@@ -166,7 +175,7 @@ struct GaussianProfile {
         diffusion_rows::kRadius, diffusion_rows::kShape, diffusion_rows::kAlbedo};
     template <Scalar S>
     static void prepare(const S* in, S* features) {
-      ProfileForm::prepare(in + 1, features);
+      GaussianForm::prepare(in + 1, features);
       features[3] = in[0];
     }
   };
@@ -187,7 +196,7 @@ struct GaussianProfileOf {
   static constexpr std::string_view kText = "gaussian_profile with a fixed number of Gaussians";
   static constexpr auto& kOutputs = kGaussianOutputs;
   static constexpr std::size_t kFeatures = 3;
-  using Forms = std::tuple<ProfileForm>;
+  using Forms = std::tuple<GaussianForm>;
   template <Scalar S>
   static void evaluate(const S* f, S* out) {
     const auto row = gaussian_row<kCount>(f);

@@ -31,39 +31,39 @@ template <int kCount>
 inline constexpr GaussianFit<kCount> kGaussianFit;
 template <>
 inline constexpr GaussianFit<1> kGaussianFit<1>{
-    .weight = {0.72581416}, .variance = {5.64521802}, .delta = 1 - 0.72581416};
+    .weight = {0.72581415997}, .variance = {5.6452180259}, .delta = 1 - 0.72581415997};
 template <>
-inline constexpr GaussianFit<2> kGaussianFit<2>{.weight = {0.53620841, 1 - 0.53620841},
-                                                .variance = {0.44110687, 11.35497493}};
+inline constexpr GaussianFit<2> kGaussianFit<2>{.weight = {0.53620840843, 1 - 0.53620840843},
+                                                .variance = {0.44110685334, 11.354974669}};
 template <>
 inline constexpr GaussianFit<4> kGaussianFit<4>{
-    .weight = {0.15366786, 0.30095779, 0.35737754, 1 - 0.15366786 - 0.30095779 - 0.35737754},
-    .variance = {0.02994983, 0.59464241, 4.607181, 25.94106994}};
+    .weight = {0.15366786955, 0.30095779111, 0.35737752982, 1 - (0.15366786955 + 0.30095779111 + 0.35737752982)},
+    .variance = {0.029949839305, 0.59464247544, 4.6071812052, 25.941070219}};
 
-// R / A without the delta, for s = 1, at x = s r >= 0.
+// R / A without the delta, for s = 1, of x2 = (s r)^2 >= 0.
 template <int kCount, Scalar S>
-S gaussian_density_over_area(const S& x) {
+S gaussian_density_over_area(const S& x2) {
   constexpr const auto& kFit = kGaussianFit<kCount>;
   S sum(0.0);
   for (int i = 0; i < kCount; ++i)
     sum = sum + constant<S>(kFit.weight[i] / (2 * std::numbers::pi * kFit.variance[i])) *
-                    exp(S(x * x * constant<S>(-0.5 / kFit.variance[i])));
+                    exp(S(x2 * constant<S>(-0.5 / kFit.variance[i])));
   return sum;
 }
-// The part of the light that leaves within x, the delta included: at x = 0 it is D.
+// The part of the light that leaves within x, the delta included: D at x = 0.
 template <int kCount, Scalar S>
-S gaussian_cdf(const S& x) {
+S gaussian_cdf(const S& x2) {
   constexpr const auto& kFit = kGaussianFit<kCount>;
   S sum = constant<S>(kFit.delta);
   for (int i = 0; i < kCount; ++i)
-    sum = sum - constant<S>(kFit.weight[i]) * expm1(S(x * x * constant<S>(-0.5 / kFit.variance[i])));
+    sum = sum - constant<S>(kFit.weight[i]) * expm1(S(x2 * constant<S>(-0.5 / kFit.variance[i])));
   return sum;
 }
 
 // R(r) without the delta, [1/length^2].
 template <int kCount, Scalar S>
 S gaussian_profile(const S& r, const S& s, const S& albedo) {
-  return albedo * s * s * gaussian_density_over_area<kCount>(S(s * r));
+  return albedo * s * s * gaussian_density_over_area<kCount>(squared(S(s * r)));
 }
 
 }  // namespace likeness::brdf

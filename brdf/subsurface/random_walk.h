@@ -39,6 +39,19 @@ class WalkRandom {
   WalkRandom(std::uint64_t seed, std::uint64_t walk) : state_(mixed(mixed(seed + kStep) + walk * kStep)) {}
   // In (0, 1), never its ends.
   double uniform() { return (double(mixed(state_ += kStep) >> 12) + 0.5) * 0x1p-52; }
+  // A point of the unit disk, uniformly: its square distance from the center, in (0, 1), is uniform too.
+  struct DiskPoint {
+    double x, y, square;
+  };
+  DiskPoint in_disk() {
+    DiskPoint p{};
+    do {
+      p.x = 2 * uniform() - 1;
+      p.y = 2 * uniform() - 1;
+      p.square = p.x * p.x + p.y * p.y;
+    } while (p.square >= 1);
+    return p;
+  }
 
  private:
   static constexpr std::uint64_t kStep = 0x9E3779B97F4A7C15;
@@ -82,13 +95,19 @@ inline double scattered_cosine(double g, double u) {
 struct WalkDirection {
   double x = 0, y = 0, z = 1;
 
-  static WalkDirection at(double cosine, double azimuth) {
-    const double sine = std::sqrt(std::max(0.0, 1 - cosine * cosine));
-    return {sine * std::cos(azimuth), sine * std::sin(azimuth), cosine};
+  // At an angle to z, in the azimuth of p.
+  static WalkDirection at(double cosine, const WalkRandom::DiskPoint& p) {
+    const double across = std::sqrt(std::max(0.0, 1 - cosine * cosine) / p.square);
+    return {p.x * across, p.y * across, cosine};
+  }
+  // Any direction. Source  Marsaglia 1972, 'Choosing a Point from the Surface of a Sphere'.
+  static WalkDirection anywhere(const WalkRandom::DiskPoint& p) {
+    const double across = 2 * std::sqrt(1 - p.square);
+    return {p.x * across, p.y * across, 1 - 2 * p.square};
   }
   // This one turned by the angle of `cosine`; the frame is that of Duff et al. 2017.
-  WalkDirection turned(double cosine, double azimuth) const {
-    const WalkDirection d = at(cosine, azimuth);
+  WalkDirection turned(double cosine, const WalkRandom::DiskPoint& p) const {
+    const WalkDirection d = at(cosine, p);
     const double sign = std::copysign(1.0, z), a = -1 / (sign + z), b = x * y * a;
     const WalkDirection t{1 + sign * x * x * a, sign * b, -sign * x}, o{b, sign + y * y * a, -y};
     const WalkDirection sum{t.x * d.x + o.x * d.y + x * d.z, t.y * d.x + o.y * d.y + y * d.z,
@@ -98,43 +117,49 @@ struct WalkDirection {
   }
 };
 
-// One walk. Calls on_exit(radius, weight) for light that leaves; in kWeighted that is many times a walk.
+// One walk. Calls on_exit(radius, weight) for light that leaves, weight > 0; in kWeighted that is many times a walk.
 template <class OnExit>
 WalkLedger random_walk(const HalfSpace& medium, Incidence incidence, Estimator estimator, WalkRandom& random,
                        OnExit&& on_exit) {
-  constexpr double kLeastWeight = 0.1;  // below it Russian roulette: one in w / (2 kLeastWeight) goes on, with twice it
-  constexpr double kFar = 40;           // deeper than this along a ray nothing is added: exp(-40) = 4e-18
+  constexpr double kFar = 40;  // deeper than this along a ray nothing is added: exp(-40) = 4e-18
+  // Below it Russian roulette: a part weight / (2 least) goes on, with the weight 2 least. Never after one collision.
+  const double least = 0.1 * medium.alpha;
   const bool analog = estimator == Estimator::kAnalog;
-  const auto azimuth = [&] { return 2 * std::numbers::pi * random.uniform(); };
   WalkLedger ledger;
   double x = 0, y = 0, z = 0, weight = 1;
   WalkDirection to;
   if (incidence == Incidence::kDiffuse) {
-    const double cosine = std::sqrt(random.uniform());
-    to = WalkDirection::at(cosine, azimuth());
+    const WalkRandom::DiskPoint p = random.in_disk();  // lifted to the hemisphere: Malley
+    to = {p.x, p.y, std::sqrt(1 - p.square)};
   }
   while (ledger.collisions < kMostCollisions) {
-    double flight = -std::log(random.uniform());
+    double flight = kFar;
     const double way_out = to.z < 0 ? z / -to.z : kFar;
-    if (way_out < kFar) {
+    if (way_out >= kFar) {
+      flight = -std::log(random.uniform());
+    } else {
       const double exit_x = x + way_out * to.x, exit_y = y + way_out * to.y;
       const double returned = medium.eta == 1 ? 0 : reflectance_from_inside(-to.z, medium.eta);
-      bool at_boundary = flight >= way_out;
+      bool at_boundary = false;
       if (analog) {
+        flight = -std::log(random.uniform());
+        at_boundary = flight >= way_out;
         if (at_boundary && (returned == 0 || random.uniform() >= returned)) {
           ledger.reflected += weight;
-          on_exit(std::hypot(exit_x, exit_y), weight);
+          on_exit(std::sqrt(exit_x * exit_x + exit_y * exit_y), weight);
           return ledger;
         }
       } else {
         const double reaches = std::exp(-way_out), leaves = reaches * (1 - returned);
-        ledger.reflected += weight * leaves;
-        on_exit(std::sqrt(exit_x * exit_x + exit_y * exit_y), weight * leaves);
+        if (leaves > 0) {
+          ledger.reflected += weight * leaves;
+          on_exit(std::sqrt(exit_x * exit_x + exit_y * exit_y), weight * leaves);
+        }
         weight *= 1 - leaves;
         if (weight <= 0) return ledger;
         // What is left has either collided on its way or been returned by the boundary.
         at_boundary = returned > 0 && random.uniform() * (1 - leaves) < reaches * returned;
-        if (!at_boundary) flight = -std::log1p(-random.uniform() * -std::expm1(-way_out));
+        if (!at_boundary) flight = -std::log(1 - random.uniform() * (1 - reaches));
       }
       if (at_boundary) {
         x = exit_x, y = exit_y, z = 0, to.z = -to.z;
@@ -151,17 +176,17 @@ WalkLedger random_walk(const HalfSpace& medium, Incidence incidence, Estimator e
     } else {
       ledger.absorbed += weight * (1 - medium.alpha);
       weight *= medium.alpha;
-      if (weight < kLeastWeight) {
-        if (random.uniform() * 2 * kLeastWeight >= weight) {
+      if (weight <= least) {
+        if (random.uniform() * 2 * least >= weight) {
           ledger.roulette += weight;
           return ledger;
         }
-        ledger.roulette += weight - 2 * kLeastWeight;
-        weight = 2 * kLeastWeight;
+        ledger.roulette += weight - 2 * least;
+        weight = 2 * least;
       }
     }
-    const double cosine = scattered_cosine(medium.g, random.uniform());
-    to = medium.g == 0 ? WalkDirection::at(cosine, azimuth()) : to.turned(cosine, azimuth());
+    if (medium.g == 0) to = WalkDirection::anywhere(random.in_disk());
+    else to = to.turned(scattered_cosine(medium.g, random.uniform()), random.in_disk());
   }
   ledger.unfinished += weight;
   return ledger;
