@@ -4,6 +4,7 @@
 
 #include "brdf/hair/dual_evaluators.h"
 #include "brdf/hair/fibre_evaluators.h"
+#include "brdf/hair/realtime_evaluators.h"
 
 // What brdf/hair computes, as rows of `likeness eval`.
 namespace likeness::brdf {
@@ -118,6 +119,6 @@ using HairReferenceEvaluators =
 template <class... Tuples>
 using Joined = decltype(std::tuple_cat(std::declval<Tuples>()...));
 
-using HairEvaluators = Joined<HairReferenceEvaluators, HairDualEvaluators>;
+using HairEvaluators = Joined<HairReferenceEvaluators, HairRealtimeEvaluators, HairDualEvaluators>;
 
 }  // namespace likeness::brdf
