@@ -10,9 +10,11 @@
 
 #include <CLI/CLI.hpp>
 
+#include "brdf/eval/command.h"
 #include "datasets_synthetic/command.h"
 #include "fit/command.h"
 #include "fit/measured/command.h"
+#include "fit/slice/command.h"
 #include "render/files/files.h"
 
 namespace {
@@ -24,6 +26,8 @@ constexpr auto kFooter = R"(Examples
   likeness fit materials/ --out out/all        fit a folder; interrupt it at any moment, run it again to resume
   likeness convert paint.mbsdf paint.csv       write a measured material in another format
   likeness make material --help                make a measured material with known parameters
+  likeness eval ggx --in angles.csv            a column of results for a table of inputs; --list prints every model
+  likeness slice callisto --out slice          a picture of how a model, or a measurement, reflects
 
 Exit codes: 0 done, 1 a check said no, 2 usage, 3 a file cannot be used, 4 the program failed.
 Manual: docs/README.md)";
@@ -97,6 +101,8 @@ int main(int argc, char** argv) try {
   likeness::fit::add_fit(program, exit_code);
   likeness::measured::add_convert(program, exit_code);
   likeness::datasets_synthetic::add_make(program, exit_code);
+  likeness::eval::add_eval(program, exit_code);
+  likeness::fit::add_slice(program, exit_code);
   program.footer(kFooter);  // last: a subcommand made after it would repeat it
 
   try {

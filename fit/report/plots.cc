@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "fit/report/slice.h"
+#include "fit/slice/slice.h"
 #include "render/image/write.h"
 #include "render/page/html.h"
 #include "render/page/svg.h"

@@ -5,9 +5,9 @@
 #include <string_view>
 
 #include "fit/report/plots.h"
-#include "fit/report/slice.h"
 #include "fit/report/spheres.h"
 #include "fit/report/tables.h"
+#include "fit/slice/slice.h"
 #include "render/image/write.h"
 #include "render/page/html.h"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "fit/report/slice.h"
+#include "fit/slice/slice.h"
 #include "render/image/tone_curve.h"
 
 namespace likeness::fit {

@@ -9,7 +9,7 @@
 
 #include "render/page/html.h"
 #include "fit/report/overview.h"
-#include "fit/report/slice.h"
+#include "fit/slice/slice.h"
 #include "fit/report/spheres.h"
 #include "render/image/tone_curve.h"
 #include "tests/fit/report_page.h"

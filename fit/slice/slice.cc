@@ -1,4 +1,4 @@
-#include "fit/report/slice.h"
+#include "fit/slice/slice.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,19 +12,20 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
 
-brdf::Geometry<double> geometry_of(int column, int row) {
-  return brdf::geometry_at(slice_theta_h_deg(column) * kDegree, slice_theta_d_deg(row) * kDegree, std::numbers::pi / 2);
+brdf::Geometry<double> geometry_of(int column, int row, const SliceGrid& grid) {
+  return brdf::geometry_at(slice_theta_h_deg(column, grid.size) * kDegree, slice_theta_d_deg(row, grid.size) * kDegree,
+                           grid.phi_d);
 }
 
-// Calls value(column, row, f), which says whether the pixel is valid, for every pixel.
+// Calls value(geometry, f), which says whether the pixel is valid, for every pixel.
 template <class F>
-SlicePicture fill(F&& value) {
-  SlicePicture slice;
-  for (int row = 0; row < kSliceSize; ++row)
-    for (int column = 0; column < kSliceSize; ++column) {
+SlicePicture fill(const SliceGrid& grid, F&& value) {
+  SlicePicture slice(grid.size);
+  for (int row = 0; row < grid.size; ++row)
+    for (int column = 0; column < grid.size; ++column) {
       measured::Rgb f;
-      if (!value(column, row, f)) continue;
-      slice.valid[static_cast<std::size_t>(row * kSliceSize + column)] = 1;
+      if (!value(geometry_of(column, row, grid), f)) continue;
+      slice.valid[slice.index(column, row)] = 1;
       const auto pixel = slice.f.at(column, row);
       pixel[0] = static_cast<float>(f.r);
       pixel[1] = static_cast<float>(f.g);
@@ -44,38 +45,39 @@ void paint(image::DisplayPicture& picture, int column, int row, const Color8& co
 
 }  // namespace
 
-SlicePicture slice_of(const measured::Material& material) {
-  return fill([&](int column, int row, measured::Rgb& f) {
-    const brdf::Geometry<double> g = geometry_of(column, row);
+SlicePicture slice_of(const measured::Material& material, const SliceGrid& grid) {
+  return fill(grid, [&](const brdf::Geometry<double>& g, measured::Rgb& f) {
     return material.evaluate(g.to_light, g.to_view, f);
   });
 }
 
-SlicePicture slice_of(const brdf::AnyBrdf& any) {
+SlicePicture slice_of(const brdf::AnyBrdf& any, const SliceGrid& grid) {
   return std::visit(
-      [](const auto& model) {
-        return fill([&](int column, int row, measured::Rgb& f) {
-          f = model.eval(geometry_of(column, row));
+      [&](const auto& model) {
+        return fill(grid, [&](const brdf::Geometry<double>& g, measured::Rgb& f) {
+          f = model.eval(g);
           return true;
         });
       },
       any);
 }
 
-bool within_cut(int column, int row, double cut_deg) {
-  const double cos_i = std::cos(slice_theta_h_deg(column) * kDegree) * std::cos(slice_theta_d_deg(row) * kDegree);
+bool within_cut(int column, int row, double cut_deg, int size) {
+  const double cos_i =
+      std::cos(slice_theta_h_deg(column, size) * kDegree) * std::cos(slice_theta_d_deg(row, size) * kDegree);
   return cos_i >= std::cos(cut_deg * kDegree);
 }
 
 Stops difference_in_stops(const SlicePicture& reference, const SlicePicture& model, double cut_deg) {
   Stops stops(reference.valid.size(), std::numeric_limits<float>::quiet_NaN());
-  for (int row = 0; row < kSliceSize; ++row)
-    for (int column = 0; column < kSliceSize; ++column) {
-      if (!reference.valid_at(column, row) || !model.valid_at(column, row) || !within_cut(column, row, cut_deg))
+  for (int row = 0; row < reference.size(); ++row)
+    for (int column = 0; column < reference.size(); ++column) {
+      if (!reference.valid_at(column, row) || !model.valid_at(column, row) ||
+          !within_cut(column, row, cut_deg, reference.size()))
         continue;
       const double f = std::max(luminance_at(reference, column, row), kDarkest);
       const double g = std::max(luminance_at(model, column, row), kDarkest);
-      stops[static_cast<std::size_t>(row * kSliceSize + column)] = static_cast<float>(std::log2(g / f));
+      stops[reference.index(column, row)] = static_cast<float>(std::log2(g / f));
     }
   return stops;
 }
@@ -116,10 +118,11 @@ Color8 no_data_color(int column, int row) {
 }
 
 image::DisplayPicture difference_picture(const Stops& stops) {
-  image::DisplayPicture out(kSliceSize, kSliceSize);
-  for (int row = 0; row < kSliceSize; ++row)
-    for (int column = 0; column < kSliceSize; ++column) {
-      const float s = stops[static_cast<std::size_t>(row * kSliceSize + column)];
+  const int size = static_cast<int>(std::lround(std::sqrt(static_cast<double>(stops.size()))));
+  image::DisplayPicture out(size, size);
+  for (int row = 0; row < size; ++row)
+    for (int column = 0; column < size; ++column) {
+      const float s = stops[static_cast<std::size_t>(row * size + column)];
       paint(out, column, row, std::isnan(s) ? no_data_color(column, row) : difference_color(s));
     }
   return out;
@@ -127,8 +130,8 @@ image::DisplayPicture difference_picture(const Stops& stops) {
 
 image::DisplayPicture slice_picture(const SlicePicture& slice, double ev) {
   image::DisplayPicture out = image::display(slice.f, ev);
-  for (int row = 0; row < kSliceSize; ++row)
-    for (int column = 0; column < kSliceSize; ++column)
+  for (int row = 0; row < slice.size(); ++row)
+    for (int column = 0; column < slice.size(); ++column)
       if (!slice.valid_at(column, row)) paint(out, column, row, no_data_color(column, row));
   return out;
 }
@@ -142,9 +145,9 @@ double exposure_of_median(std::vector<double> luminances, double target, double 
 
 double slice_exposure(const SlicePicture& reference, double cut_deg) {
   std::vector<double> luminances;
-  for (int row = 0; row < kSliceSize; ++row)
-    for (int column = 0; column < kSliceSize; ++column)
-      if (reference.valid_at(column, row) && within_cut(column, row, cut_deg))
+  for (int row = 0; row < reference.size(); ++row)
+    for (int column = 0; column < reference.size(); ++column)
+      if (reference.valid_at(column, row) && within_cut(column, row, cut_deg, reference.size()))
         luminances.push_back(luminance_at(reference, column, row));
   return exposure_of_median(std::move(luminances), 0.18, 6);
 }
