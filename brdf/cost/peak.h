@@ -8,10 +8,11 @@
 namespace likeness::cost {
 
 struct Peak {
-  std::function<void()> multiply_adds;  // independent chains of a b + c, one for each register that hides the latency
+  std::function<void()> multiply_adds;  // independent chains of a b + c, so many that the latency is hidden
   std::size_t multiply_adds_a_call;     // counted by lane
-  std::function<void()> exponentials;   // xsimd's exp over an array in the L1 cache
-  std::size_t exponentials_a_call;
+  // Over arrays in the L1 cache: xsimd's exp and log, and the processor's division and square root.
+  std::function<void()> exponentials, logarithms, divisions, roots;
+  std::size_t values_a_call;
 };
 
 // `set` is one of catalog::instruction_sets().

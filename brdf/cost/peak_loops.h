@@ -4,7 +4,7 @@
 
 namespace likeness::cost {
 
-inline constexpr std::size_t kChains = 12, kRounds = 512, kExponentials = 1024;
+inline constexpr std::size_t kChains = 12, kRounds = 512, kValues = 1024;
 inline constexpr std::size_t kWidest = 16;  // lanes of any set
 
 // state: kChains batches. Each round multiplies and adds once in every chain.
@@ -20,7 +20,7 @@ void multiply_adds(float* state) {
 
 template <class B>
 void exponentials(const float* in, float* out) {
-  for (std::size_t i = 0; i < kExponentials; i += B::size) exp(B::load_unaligned(in + i)).store_unaligned(out + i);
+  for (std::size_t i = 0; i < kValues; i += B::size) exp(B::load_unaligned(in + i)).store_unaligned(out + i);
 }
 
 }  // namespace likeness::cost
