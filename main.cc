@@ -10,6 +10,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "brdf/cost/command.h"
 #include "brdf/eval/command.h"
 #include "datasets_synthetic/command.h"
 #include "fit/command.h"
@@ -28,6 +29,7 @@ constexpr auto kFooter = R"(Examples
   likeness make material --help                make a measured material with known parameters
   likeness eval ggx --in angles.csv            a column of results for a table of inputs; --list prints every model
   likeness slice callisto --out slice          a picture of how a model, or a measurement, reflects
+  likeness cost evaluators --out out/cost      what accuracy costs in time, on this machine
 
 Exit codes: 0 done, 1 a check said no, 2 usage, 3 a file cannot be used, 4 the program failed.
 Manual: docs/README.md)";
@@ -103,6 +105,7 @@ int main(int argc, char** argv) try {
   likeness::datasets_synthetic::add_make(program, exit_code);
   likeness::eval::add_eval(program, exit_code);
   likeness::fit::add_slice(program, exit_code);
+  likeness::cost::add_cost(program, exit_code);
   program.footer(kFooter);  // last: a subcommand made after it would repeat it
 
   try {

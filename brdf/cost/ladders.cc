@@ -5,7 +5,7 @@
 namespace likeness::cost {
 
 std::vector<Family> families() {
-  return {diffuse_family(), fresnel_family(), diffusion_inverse_family(), diffusion_profile_family()};
+  return {diffuse_family(), fresnel_family(), diffusion_inverse_family(), diffusion_profile_family(), hair_family()};
 }
 
 double* Inputs::find(std::string_view name, int& channels) {
