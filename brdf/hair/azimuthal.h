@@ -3,7 +3,7 @@
 #include <array>
 #include <numbers>
 
-#include "brdf/scalar.h"
+#include "brdf/fresnel/dielectric.h"
 
 // How a fibre scatters around itself, for light that hits it at an offset h from its axis (in radii, -1 to 1).
 // Lobes: p = 0 is R, 1 is TT, 2 is TRT, 3 stands for all longer paths together.
@@ -55,13 +55,17 @@ struct FibrePath {
     gamma_t = atan2(sin_t, cos_t);
     chord = eta * cos_t / pick(usable, outer, constant<S>(kTiny<S>));
 
-    const S inner = safe_sqrt(inner2), eta2 = eta * eta;
-    const S across = cosine + inner, along = eta2 * cosine + inner;  // denominators of the two polarisations
+    DielectricBoundary<S> boundary;
+    boundary.cos_i = cosine;
+    boundary.index2 = eta * eta;
+    boundary.contrast = q;
+    boundary.refracted_cos2 = inner2;
+    reflected = fresnel_dielectric(boundary);
+    // 1 - reflected, as the mean of both polarisations' own: 4 c g / (c + g)^2 and 4 n^2 c g / (n^2 c + g)^2.
+    const S inner = safe_sqrt(inner2), across = cosine + inner, along = boundary.index2 * cosine + inner;
     const auto meets = greater(S(across * across), constant<S>(kTiny<S>));
     const S across2 = pick(meets, S(across * across), S(1)), along2 = pick(meets, S(along * along), S(1));
-    const S r_across = q / across2, r_along = q * (cosine * cosine * (eta2 + S(1)) - S(1)) / along2;
-    reflected = S(0.5) * (r_across * r_across + r_along * r_along);
-    transmitted = pick(meets, S(S(2) * cosine * inner * (S(1) / across2 + eta2 / along2)), S(1));
+    transmitted = pick(meets, S(S(2) * cosine * inner * (S(1) / across2 + boundary.index2 / along2)), S(1));
   }
 };
 template <Scalar S>
