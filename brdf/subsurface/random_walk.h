@@ -7,6 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "brdf/fresnel/dielectric.h"
+
 // The reference for diffusion profiles: Monte Carlo of a medium that fills the half space under a flat boundary.
 // In double alone, and with branches: it is not for batches.
 //
@@ -20,7 +22,7 @@ namespace likeness::brdf {
 struct HalfSpace {
   double alpha = 0.9;  // single-scattering albedo, in [0, 1]
   double g = 0;        // mean cosine of Henyey and Greenstein's phase function, in (-1, 1); 0 scatters alike everywhere
-  double eta = 1;      // index of refraction inside over outside, >= 1; 1 neither reflects nor refracts
+  double eta = 1;      // index of refraction inside over outside, > 0; 1 neither reflects nor refracts
 };
 
 enum class Incidence {
@@ -72,17 +74,6 @@ struct WalkLedger {
 };
 
 inline constexpr int kMostCollisions = 1000000;
-
-// Part of unpolarised light that the boundary returns to the inside, for the cosine inside and eta = inside / outside.
-// Source  Fresnel's equations and Snell's law.
-inline double reflectance_from_inside(double cosine, double eta) {
-  const double sine2 = eta * eta * (1 - cosine * cosine);
-  if (sine2 >= 1) return eta > 1 ? 1 : 0;
-  const double outside = std::sqrt(1 - sine2);
-  const double s = (eta * cosine - outside) / (eta * cosine + outside);
-  const double p = (cosine - eta * outside) / (cosine + eta * outside);
-  return (s * s + p * p) / 2;
-}
 
 // Cosine of the angle between the directions before and after a collision, from u in (0, 1).
 // Source  Henyey and Greenstein 1941: the inverse of its CDF, multiplied out so that g -> 0 divides by nothing.
@@ -139,7 +130,7 @@ WalkLedger random_walk(const HalfSpace& medium, Incidence incidence, Estimator e
       flight = -std::log(random.uniform());
     } else {
       const double exit_x = x + way_out * to.x, exit_y = y + way_out * to.y;
-      const double returned = medium.eta == 1 ? 0 : reflectance_from_inside(-to.z, medium.eta);
+      const double returned = medium.eta == 1 ? 0 : fresnel_dielectric(-to.z, 1 / medium.eta);
       bool at_boundary = false;
       if (analog) {
         flight = -std::log(random.uniform());

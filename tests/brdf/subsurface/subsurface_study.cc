@@ -6,9 +6,9 @@
 //   subsurface_study picture FILE.svg   profiles over the distance
 #include <ceres/ceres.h>
 
-#include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <fstream>
 #include <random>
 #include <string>
@@ -136,9 +136,9 @@ void walk(std::int64_t walks) {
     std::printf("| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n");
     for (const double albedo : {0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95}) {
       const double alpha = single_scattering_albedo(albedo, incidence);
-      const auto begin = std::chrono::steady_clock::now();
+      const std::clock_t begin = std::clock();
       const WalkProfile profile = random_walk_profile({.alpha = alpha}, incidence, edges, walks, 1);
-      const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+      const double seconds = double(std::clock() - begin) / CLOCKS_PER_SEC;
       const double s = pencil ? burley_shape_searchlight(albedo) : burley_shape_diffuse(albedo);
       const auto burley = [&](double shape) {
         return error_against_walk(edges, profile, [&](double r) { return burley_cdf(shape * r); });
