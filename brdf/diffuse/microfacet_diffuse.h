@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <numbers>
+#include <type_traits>
 
 #include "brdf/vector.h"
 
@@ -66,7 +67,11 @@ struct PolarPair {
     const auto both_lean = both(usable_o, usable_i);
     const Vec3<S> d = v - l;
     const S cos_phi = pick(both_lean, S(ox * ix + oy * iy), S(1));
-    const S across = v.x * d.y - v.y * d.x;  // sin_o sin_i sin phi
+    // v x l = v x (l - v) = v x (l + v): from the shortest of the three it keeps its digits at 0 and at 180 degrees.
+    const auto acute = greater(cos_phi, S(0));
+    const S tx = l.x - pick(acute, v.x, S(-v.x)), ty = l.y - pick(acute, v.y, S(-v.y));
+    const auto shorter = greater(S(sin_i * sin_i), S(tx * tx + ty * ty));
+    const S across = v.x * pick(shorter, ty, l.y) - v.y * pick(shorter, tx, l.x);  // sin_o sin_i sin phi
     const S sin_phi = pick(both_lean, S(abs(across) / pick(both_lean, S(sin_o * sin_i), S(1))), S(0));
     // Upright, the other's past is its own sine times 1, for an azimuth of 0.
     const S past_o = pick(usable_o, S(ox * (l.z * d.x - l.x * d.z) + oy * (l.z * d.y - l.y * d.z)), S(-sin_i));
@@ -108,7 +113,7 @@ struct ArcRule<float> {
       0.14776211235737644,  0.13463335965499818,  0.10954318125799102, 0.074725674575290297, 0.033335672154344069};
 };
 template <Scalar S>
-using ArcRuleOf = ArcRule<typename Arithmetic<S>::Number>;
+using ArcRuleOf = ArcRule<std::conditional_t<sizeof(typename Arithmetic<S>::Number) == 4, float, double>>;
 
 // The GGX slopes of one roughness.
 template <Scalar S>
@@ -273,6 +278,21 @@ Reflected<S> microfacet_diffuse(const S& alpha, const PolarPair<S>& pair) {
   const S lambert = constant<S>(std::numbers::inv_pi);
   return {pick(above, pick(rough, S(f_cos / p.cos_i), lambert), S(0)),
           pick(above, pick(rough, f_cos, S(lambert * p.cos_i)), S(0))};
+}
+
+// The part of the light from all around that reaches a viewer, over rho: a facet gets the light of the half of the sphere
+// that it sees, (1 + h . n) / 2, and what it sends is counted by the area that it shows, so
+//
+//     albedo = integral of max(0, o . h) (1 + h . n) / 2 D(h) dh / cos_o
+//
+// At most 1 near the normal, and unbounded towards grazing views: without shadowing, facets show more area than the
+// surface has. alpha = 0 gives 1.
+template <Scalar S>
+S microfacet_diffuse_albedo(const S& alpha, const S& cos_o, const S& sin_o) {
+  const S c = larger(cos_o, constant<S>(kTiny<S>));
+  const S shown = S(0.5) * (c + sqrt(S(c * c + alpha * alpha * sin_o * sin_o)));
+  const PolarPair<S> to_normal{c, sin_o, S(1), S(0), S(1), S(0), constant<S>(std::numbers::pi), sin_o, S(-sin_o)};
+  return S(0.5) * (shown + MicrofacetSlopes<S>(alpha).projected(to_normal)) / c;
 }
 
 }  // namespace likeness::brdf

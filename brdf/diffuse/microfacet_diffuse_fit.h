@@ -12,16 +12,15 @@ namespace likeness::brdf {
 
 // Ten multiply-adds that stand for microfacet_diffuse() where that keeps energy, and stay below it where it does not:
 //
-//     pi f / rho = 1 + alpha (s (a + b alpha + (cos_i + cos_o) (c + d alpha))
-//                             - e (cos_i + cos_o - 2/3) - g (2/3 - cos_i) (2/3 - cos_o))
-//     s = sin_i sin_o cos(phi)
+//     pi f / rho = 1 + alpha (s (a + b alpha + (c + d alpha) q) - e (q - 1/2))
+//     s = sin_i sin_o cos(phi),   q = cos_i^2 + cos_o^2
 //
-// Source      this project's. The six numbers are a least-squares fit of the relative error over alpha in [0, 1] and all
-//             directions, weighted by their cosines (the program tests/brdf/diffuse/fit_microfacet_diffuse.cc).
+// Source      this project's. The five numbers are a least-squares fit over alpha in [0, 1] and all directions, weighted by
+//             their cosines, of the relative error together with twice that of the albedo, where the integral's counts as 1 above 1
+//             (tests/brdf/diffuse/diffuse_study.cc).
 // Directions  unit, both leaving the surface. If either is at or below the horizon, f = 0.
-// Holds       f(l, v) = f(v, l). The albedo is base_color (1 - e alpha cos_o) exactly, since over the hemisphere the mean of
-//             s is 0 and that of cos_i, weighted by itself, is 2/3: never above base_color. pi f / rho is at least 0.03.
-//             alpha = 0 is Lambert.
+// Holds       f(l, v) = f(v, l). The albedo is base_color (1 - e alpha cos_o^2) exactly, since over the hemisphere the mean
+//             of s is 0 and that of cos_i^2 is 1/2: never above base_color. pi f / rho is at least 0.14. alpha = 0 is Lambert.
 // Does not    rise without bound towards grazing angles, as the integral does: a reciprocal model that did would reflect
 //             more than it receives.
 template <Scalar S>
@@ -44,8 +43,8 @@ struct MicrofacetDiffuseFit {
   Rgb<S> base_color{constant<S>(kParameters[0].initial)};
   S alpha = constant<S>(kParameters[1].initial);  // not braces: they would pick a batch's list of lanes
 
-  // a, b, c, d, e, g.
-  static constexpr std::array kCoefficients{2.454, -1.746, -1.095, 1.189, 0.251, 0.684};
+  // a, b, c, d, e.
+  static constexpr std::array kCoefficients{2.170, -1.263, -1.246, 1.280, 0.2084};
 
   // [1/sr], without the cosine.
   template <Scalar T>
@@ -61,7 +60,9 @@ struct MicrofacetDiffuseFit {
   }
 
   // The part of the light from all around that reaches a viewer.
-  Rgb<S> albedo(const S& cos_o) const { return base_color * S(S(1) - alpha * cos_o * constant<S>(kCoefficients[4])); }
+  Rgb<S> albedo(const S& cos_o) const {
+    return base_color * S(S(1) - alpha * cos_o * cos_o * constant<S>(kCoefficients[4]));
+  }
 
   CosineLobe<S> lobes(const Vec3<S>&) const { return {}; }
   Sample<S> sample(const Vec3<S>& to_view, const S& choice, const S& u, const S& v) const {
@@ -77,11 +78,9 @@ struct MicrofacetDiffuseFit {
   S over_lambert(const Geometry<T>& g) const {
     constexpr auto k = kCoefficients;
     const T s = g.to_light.x * g.to_view.x + g.to_light.y * g.to_view.y;
-    const T sum = g.cos_i + g.cos_o, product = g.cos_i * g.cos_o;
-    const S slope =
-        constant<S>(k[0]) + constant<S>(k[1]) * alpha + (constant<S>(k[2]) + constant<S>(k[3]) * alpha) * sum;
-    const T level = constant<T>(2.0 / 3 * k[4] - 4.0 / 9 * k[5]) + constant<T>(2.0 / 3 * k[5] - k[4]) * sum -
-                    constant<T>(k[5]) * product;
+    const T q = g.cos_i * g.cos_i + g.cos_o * g.cos_o;
+    const S slope = constant<S>(k[0]) + constant<S>(k[1]) * alpha + (constant<S>(k[2]) + constant<S>(k[3]) * alpha) * q;
+    const T level = constant<T>(k[4]) * (T(0.5) - q);
     return S(1) + alpha * (slope * s + level);
   }
 };
