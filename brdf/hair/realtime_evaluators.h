@@ -50,8 +50,8 @@ struct HairLutRow : HairForms<HairLutRow> {
   }
   template <Scalar S>
   static void evaluate(const Tables& lut, const S* f, S* out) {
-    using Row = HairLobesRow<S>;
-    Row::write(f, lut.read(f[14], Row::cos_o(f), f[15], Row::sigma_a(f)), out);
+    using Lobes = HairLobesRow<S>;
+    Lobes::write(f, lut.read(f[14], Lobes::cos_o(f), f[15], Lobes::sigma_a(f)), out);
   }
 };
 
@@ -70,8 +70,8 @@ struct HairClosedRow : HairForms<HairClosedRow> {
   }
   template <Scalar S>
   static void evaluate(const S* f, S* out) {
-    using Row = HairLobesRow<S>;
-    Row::write(f, HairClosed<S>(f[16]).read(f[14], f[15], Row::cos_o(f), Row::sigma_a(f)), out);
+    using Lobes = HairLobesRow<S>;
+    Lobes::write(f, HairClosed<S>(f[16]).read(f[14], f[15], Lobes::cos_o(f), Lobes::sigma_a(f)), out);
   }
 };
 
