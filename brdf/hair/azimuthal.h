@@ -11,12 +11,21 @@ namespace likeness::brdf {
 
 inline constexpr int kHairLobes = 4;
 
+// Four times the peak of the trimmed logistic: 1 / (s tanh(pi / (2 s))).
+template <Scalar S>
+S trimmed_logistic_scale(const S& s) {
+  return S(1) / S(s * tanh(S(constant<S>(std::numbers::pi / 2) / s)));
+}
+template <Scalar S>
+S trimmed_logistic(const S& distance, const S& s, const S& scale) {
+  const S e = exp(S(-distance / s));
+  return scale * e / squared(S(S(1) + e));
+}
 // Logistic distribution of width s > 0 cut to [-pi, pi], [1/rad]; its integral there is 1. Reads |x| and s; x is 0 at
 // the peak. Source  Chiang 2016 (D_p); the integral of the logistic over [-pi, pi] is tanh(pi / (2 s)).
 template <Scalar S>
 S trimmed_logistic(const S& distance, const S& s) {
-  const S e = exp(S(-distance / s));
-  return e / (s * squared(S(S(1) + e)) * tanh(S(constant<S>(std::numbers::pi / 2) / s)));
+  return trimmed_logistic(distance, s, trimmed_logistic_scale(s));
 }
 // x drawn with that density from u in [0, 1).
 template <Scalar S>

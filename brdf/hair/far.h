@@ -13,7 +13,7 @@ template <Scalar S>
 struct FarLobe {
   int p;
   S phi, s, sigma_a, eta, cos_theta;
-  S peak = S(1.0) / (s * tanh(S(constant<S>(std::numbers::pi / 2) / s)));  // four times the logistic's
+  S scale = trimmed_logistic_scale(s);
 
   // A_p(h) D(phi - Phi(p, h)) dh / dgamma at h = sin gamma: analytic up to the ends, where dh / dgamma is 0, but for
   // the cut of the logistic half a turn from its peak.
@@ -30,8 +30,7 @@ struct FarLobe {
 
  private:
   S logistic(const FibrePath<S>& path) const {
-    const S e = exp(S(-azimuth_distance(S(double(p)), phi, path.gamma_i, path.gamma_t) / s));
-    return peak * e / squared(S(S(1) + e));
+    return trimmed_logistic(azimuth_distance(S(double(p)), phi, path.gamma_i, path.gamma_t), s, scale);
   }
 };
 

@@ -32,56 +32,54 @@ S hair_width(const S& beta_n) {
 
 // The chance of each lobe to be sampled: its attenuation, as the mean of the channels; evenly where all is absorbed.
 template <Scalar S>
-std::array<S, kHairLobes> hair_chances(const S& reflected, const S& transmitted, const Rgb<S>& depth) {
-  const auto r = hair_attenuations(reflected, transmitted, depth.r),
-             g = hair_attenuations(reflected, transmitted, depth.g),
-             b = hair_attenuations(reflected, transmitted, depth.b);
-  std::array<S, kHairLobes> chance;
+std::array<S, kHairLobes> hair_chances(const std::array<Rgb<S>, kHairLobes>& attenuations) {
+  std::array<S, kHairLobes> chances;
   S total = S(0.0);
   for (std::size_t p = 0; p < kHairLobes; ++p) {
-    chance[p] = r[p] + g[p] + b[p];
-    total = total + chance[p];
+    chances[p] = attenuations[p].r + attenuations[p].g + attenuations[p].b;
+    total = total + chances[p];
   }
   const auto usable = greater(total, constant<S>(kTiny<S>));
   const S scale = S(1) / pick(usable, total, S(1));
-  for (S& c : chance) c = pick(usable, S(c * scale), S(0.25));
-  return chance;
+  for (S& c : chances) c = pick(usable, S(c * scale), S(0.25));
+  return chances;
 }
 
 // What two directions and an offset come to, for a fibre: all that is left is exponentials. Lobe p = 3 has the variance
 // of p = 2, no tilt, and is even in azimuth.
 template <Scalar S>
 struct HairTerms {
-  std::array<S, 3> v;                 // variance of R, TT and TRT
-  std::array<S, 4> versine, cosines;  // (1 - cos(theta_i + theta_o)) / v and cos cos / v, with the tilt of the lobe
-  std::array<S, 3> distance;          // of the azimuth from the centre of the lobe, [0, pi]
-  S s;                                // width of the logistic
-  Rgb<S> depth;                       // optical depth between two hits
-  S reflected, transmitted;           // Fresnel at one hit
-  S cos_i;                            // cosine of the light's inclination
+  std::array<S, 3> v;                          // variance of R, TT and TRT
+  std::array<S, kHairLobes> versine, cosines;  // (1 - cos(theta_i + theta_o)) / v and cos cos / v, with the lobe's tilt
+  std::array<S, 3> distance;                   // of the azimuth from the centre of the lobe, [0, pi]
+  S s;                                         // width of the logistic
+  std::array<Rgb<S>, kHairLobes> attenuations;  // A_p
+  S cos_i;                                      // cosine of the light's inclination
 
   // M_p D_p, the density of the lobes over directions, [1/sr].
   std::array<S, kHairLobes> densities() const {
+    const S scale = trimmed_logistic_scale(s), even = constant<S>(0.5 / std::numbers::pi);
+    const std::array<S, 3> of_v{hair_mp_scale(v[0]), hair_mp_scale(v[1]), hair_mp_scale(v[2])};
     std::array<S, kHairLobes> d;
-    for (std::size_t p = 0; p < 3; ++p) d[p] = hair_mp(v[p], versine[p], cosines[p]) * trimmed_logistic(distance[p], s);
-    d[3] = hair_mp(v[2], versine[3], cosines[3]) * constant<S>(0.5 / std::numbers::pi);
+    for (std::size_t p = 0; p < kHairLobes; ++p) {
+      const S m = exp(S(-versine[p])) * bessel_i0_scaled(cosines[p]) * of_v[p < 3 ? p : 2];
+      d[p] = m * (p < 3 ? trimmed_logistic(distance[p < 3 ? p : 0], s, scale) : even);
+    }
     return d;
   }
   // S cos(theta_i), [1/sr]: no cosine is divided by.
-  Rgb<S> eval_cos() const { return sum(densities()); }
-  Rgb<S> sum(const std::array<S, kHairLobes>& d) const {
-    const auto channel = [&](const S& depth_of) {
-      const auto a = hair_attenuations(reflected, transmitted, depth_of);
-      return S(a[0] * d[0] + a[1] * d[1] + a[2] * d[2] + a[3] * d[3]);
-    };
-    return {channel(depth.r), channel(depth.g), channel(depth.b)};
+  Rgb<S> eval_cos() const { return eval_cos(densities()); }
+  Rgb<S> eval_cos(const std::array<S, kHairLobes>& d) const {
+    const auto& a = attenuations;
+    return a[0] * d[0] + a[1] * d[1] + a[2] * d[2] + a[3] * d[3];
   }
   // S, [1/sr], without the cosine: grows without bound towards the poles, where the cosine is held above kTiny.
   Rgb<S> eval() const { return eval_cos() * S(S(1) / larger(cos_i, constant<S>(kTiny<S>))); }
   // Density over directions with which `sample` proposes, [1/sr].
-  S pdf() const { return mixed(hair_chances(reflected, transmitted, depth), densities()); }
-  static S mixed(const std::array<S, kHairLobes>& a, const std::array<S, kHairLobes>& b) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3];
+  S pdf() const { return pdf(densities()); }
+  S pdf(const std::array<S, kHairLobes>& d) const {
+    const auto c = hair_chances(attenuations);
+    return c[0] * d[0] + c[1] * d[1] + c[2] * d[2] + c[3] * d[3];
   }
 };
 
@@ -138,8 +136,8 @@ struct HairFibre {
   struct View {
     std::array<S, 3> v;
     std::array<Inclination<S>, kHairLobes> o;  // theta_o with the tilt of each lobe taken off
-    S s, phi_o, reflected, transmitted, gamma_i, gamma_t;
-    Rgb<S> depth;
+    S s, phi_o, gamma_i, gamma_t;
+    std::array<Rgb<S>, kHairLobes> attenuations;
 
     HairTerms<S> terms(const Inclination<S>& i, const S& phi_i) const {
       HairTerms<S> t;
@@ -152,9 +150,7 @@ struct HairFibre {
       for (std::size_t p = 0; p < 3; ++p)
         t.distance[p] = azimuth_distance(constant<S>(double(p)), S(phi_i - phi_o), gamma_i, gamma_t);
       t.s = s;
-      t.depth = depth;
-      t.reflected = reflected;
-      t.transmitted = transmitted;
+      t.attenuations = attenuations;
       t.cos_i = i.cosine;
       return t;
     }
@@ -172,9 +168,11 @@ struct HairFibre {
     view.gamma_i = path.gamma_i;
     view.gamma_t = path.gamma_t;
     view.phi_o = phi_o;
-    view.reflected = path.reflected;
-    view.transmitted = path.transmitted;
-    view.depth = sigma_a * S(S(2) * path.chord);
+    const Rgb<S> depth = sigma_a * S(S(2) * path.chord);
+    const auto r = hair_attenuations(path.reflected, path.transmitted, depth.r),
+               g = hair_attenuations(path.reflected, path.transmitted, depth.g),
+               b = hair_attenuations(path.reflected, path.transmitted, depth.b);
+    for (std::size_t p = 0; p < kHairLobes; ++p) view.attenuations[p] = {r[p], g[p], b[p]};
     return view;
   }
   View view(const Vec3<S>& to_view, const S& h) const { return view(inclination(to_view), azimuth(to_view), h); }
@@ -195,9 +193,9 @@ struct HairFibre {
     const Vec3<S> to_light = proposed(from, choice, u, w, a);
     const HairTerms<S> terms = from.terms(to_light);
     const auto densities = terms.densities();
-    const S pdf = HairTerms<S>::mixed(hair_chances(from.reflected, from.transmitted, from.depth), densities);
+    const S pdf = terms.pdf(densities);
     const auto usable = greater(pdf, constant<S>(kTiny<S>));
-    return {to_light, pdf, terms.sum(densities) * pick(usable, S(S(1) / pick(usable, pdf, S(1))), S(0))};
+    return {to_light, pdf, terms.eval_cos(densities) * pick(usable, S(S(1) / pick(usable, pdf, S(1))), S(0))};
   }
 
   static Inclination<S> inclination(const Vec3<S>& w) { return {w.x, safe_sqrt(S(w.y * w.y + w.z * w.z))}; }
@@ -215,7 +213,7 @@ struct HairFibre {
   }
   static Vec3<S> proposed(const View& from, const S& choice, const S& u, const S& w, const S& a) {
     // The first three lobes in order, what is left for the fourth.
-    const auto chance = hair_chances(from.reflected, from.transmitted, from.depth);
+    const auto chance = hair_chances(from.attenuations);
     const S first = chance[0], second = first + chance[1], third = second + chance[2];
     const auto not_r = greater(S(choice), first), not_tt = greater(S(choice), second),
                not_trt = greater(S(choice), third);

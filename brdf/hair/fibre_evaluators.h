@@ -70,7 +70,7 @@ struct HairFibreRow {
       Output{.name = "f", .unit = "1/sr", .channels = 3, .text = "scattering function without the cosine, linear RGB"},
       Output{.name = "f_cos", .unit = "1/sr", .channels = 3, .text = "with the cosine of theta_i, linear RGB"},
       Output{.name = "pdf", .unit = "1/sr", .text = "density with which sample() proposes the light"}};
-  static constexpr std::size_t kFeatures = 21;
+  static constexpr std::size_t kFeatures = 28;
 
   template <Scalar S>
   static void store(const HairTerms<S>& t, S* out) {
@@ -78,7 +78,10 @@ struct HairFibreRow {
     for (const S& x : t.versine) *out++ = x;
     for (const S& x : t.cosines) *out++ = x;
     for (const S& x : t.distance) *out++ = x;
-    for (const S& x : {t.s, t.depth.r, t.depth.g, t.depth.b, t.reflected, t.transmitted, t.cos_i}) *out++ = x;
+    *out++ = t.s;
+    for (const Rgb<S>& a : t.attenuations)
+      for (const S& x : {a.r, a.g, a.b}) *out++ = x;
+    *out++ = t.cos_i;
   }
   template <Scalar S>
   static HairTerms<S> terms(const S* f) {
@@ -87,10 +90,9 @@ struct HairFibreRow {
             .cosines = {f[7], f[8], f[9], f[10]},
             .distance = {f[11], f[12], f[13]},
             .s = f[14],
-            .depth = {f[15], f[16], f[17]},
-            .reflected = f[18],
-            .transmitted = f[19],
-            .cos_i = f[20]};
+            .attenuations = {Rgb<S>{f[15], f[16], f[17]}, Rgb<S>{f[18], f[19], f[20]}, Rgb<S>{f[21], f[22], f[23]},
+                             Rgb<S>{f[24], f[25], f[26]}},
+            .cos_i = f[27]};
   }
 
   struct Angles {
@@ -115,8 +117,9 @@ struct HairFibreRow {
   template <Scalar S>
   static void evaluate(const S* f, S* out) {
     const HairTerms<S> t = terms(f);
-    write_scattering(t.eval_cos(), t.cos_i, out);
-    out[6] = t.pdf();
+    const auto densities = t.densities();
+    write_scattering(t.eval_cos(densities), t.cos_i, out);
+    out[6] = t.pdf(densities);
   }
 };
 

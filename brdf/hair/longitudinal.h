@@ -21,6 +21,12 @@ S versine_of_sum(const Inclination<S>& i, const Inclination<S>& o) {
   return S(0.5) * (squared(S(i.cosine - o.cosine)) + squared(S(i.sine + o.sine)));
 }
 
+// 1 / (v (1 - exp(-2 / v))), which M_p has as a factor.
+template <Scalar S>
+S hair_mp_scale(const S& v) {
+  return S(-1) / S(v * expm1(S(S(-2) / v)));
+}
+
 // Energy-conserving longitudinal term, [1/rad / cos]: the integral of M cos(theta_i) over theta_i is 1 for every theta_o
 // and v. Symmetric in theta_i and theta_o. v > 0 is a variance, [rad^2] where it is small.
 //
@@ -35,7 +41,7 @@ S versine_of_sum(const Inclination<S>& i, const Inclination<S>& o) {
 // Reads versine_over_v = (1 - cos(theta_i + theta_o)) / v and cosines_over_v = cos(theta_i) cos(theta_o) / v.
 template <Scalar S>
 S hair_mp(const S& v, const S& versine_over_v, const S& cosines_over_v) {
-  return exp(S(-versine_over_v)) * bessel_i0_scaled(cosines_over_v) / S(-v * expm1(S(S(-2) / v)));
+  return exp(S(-versine_over_v)) * bessel_i0_scaled(cosines_over_v) * hair_mp_scale(v);
 }
 template <Scalar S>
 S hair_mp(const S& v, const Inclination<S>& i, const Inclination<S>& o) {
