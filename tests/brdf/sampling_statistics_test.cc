@@ -16,8 +16,9 @@ constexpr std::uint64_t kSeed = 20250811;
 constexpr int kSamples = 100000;
 constexpr std::size_t kFine = 64, kCoarse = 16;  // bins a side: of the marginals, and in 2-D
 
-// The suite: every model, parameter set, view and scalar, in three tests each; together they fail by chance once in 100.
-constexpr std::size_t kTests = std::variant_size_v<AnyBrdf> * kParameterSets * kViewHeights.size() * 2 * 3;
+// The suite: every model and parameter set (two more for the clearcoat), every view, double and float, in three tests
+// each; together they fail by chance once in 100.
+constexpr std::size_t kTests = (std::variant_size_v<AnyBrdf> * kParameterSets + 2) * kViewHeights.size() * 2 * 3;
 const double kLeastP = sidak(0.01, kTests);
 // The means, two-sided: erfc(4.5 / sqrt(2)) is 7e-6, so all of them together fail by chance once in 400.
 constexpr double kSigmas = 4.5;
@@ -89,9 +90,8 @@ template <class M>
 class EveryModelsSamples : public ::testing::Test {};
 TYPED_TEST_SUITE(EveryModelsSamples, TypesOf<AnyBrdf>::Type, ModelNames);
 
-template <class M, class F>
-void for_each_case(F&& visit) {
-  const auto sets = parameter_sets<M>();
+template <std::size_t kSets, class M, class F>
+void for_each_case(const std::array<M, kSets>& sets, F&& visit) {
   for (std::size_t set = 0; set < sets.size(); ++set)
     for (const double height : kViewHeights) {
       const Vec3<double> view = view_at(height);
@@ -125,8 +125,9 @@ void expect_distribution(const M& model, const Vec3<double>& view, const HalfVec
       << "in sigmas: " << (mean - albedo) / sigma;
 }
 
-TYPED_TEST(EveryModelsSamples, AreDistributedAsThePdfSaysAndAverageToTheAlbedo) {
-  for_each_case<TypeParam>([](const TypeParam& model, const Vec3<double>& view, const HalfVectorMap& map) {
+template <std::size_t kSets, class M>
+void expect_samples_of(const std::array<M, kSets>& sets) {
+  for_each_case(sets, [](const M& model, const Vec3<double>& view, const HalfVectorMap& map) {
     const Expected expected = expected_of(model, view, map);
     const double kept = over_lights(model, view, [&](const Vec3<double>& l) { return model.pdf(l, view); });
     EXPECT_NEAR(kept, expected.kept, 1e-7);  // another quadrature: what the bins hold together
@@ -135,6 +136,19 @@ TYPED_TEST(EveryModelsSamples, AreDistributedAsThePdfSaysAndAverageToTheAlbedo) 
     expect_distribution<double>(model, view, map, expected, value);
     expect_distribution<float>(model, view, map, expected, value);
   });
+}
+
+TYPED_TEST(EveryModelsSamples, AreDistributedAsThePdfSaysAndAverageToTheAlbedo) {
+  expect_samples_of(parameter_sets<TypeParam>());
+}
+
+// Among other lobes the clearcoat has too few samples to be seen: here it has nearly all.
+TEST(Disney2012Samples, OfTheClearcoatAloneAreDistributedAsThePdfSays) {
+  const Disney2012<double> satin{
+      .base_color = Rgb<double>(0), .specular = 0, .sheen = 0, .clearcoat = 4, .clearcoat_gloss = 0};
+  Disney2012<double> gloss = satin;
+  gloss.clearcoat_gloss = 1;
+  expect_samples_of(std::array{satin, gloss});
 }
 
 // How unevenly samples weigh: the relative variance of one sample's mean over the channels, by quadrature, worst over
