@@ -22,5 +22,18 @@ template <class B>
 void exponentials(const float* in, float* out) {
   for (std::size_t i = 0; i < kValues; i += B::size) exp(B::load_unaligned(in + i)).store_unaligned(out + i);
 }
+template <class B>
+void logarithms(const float* in, float* out) {
+  for (std::size_t i = 0; i < kValues; i += B::size) log(B::load_unaligned(in + i)).store_unaligned(out + i);
+}
+template <class B>
+void divisions(const float* in, float* out) {
+  const B one(1.f);
+  for (std::size_t i = 0; i < kValues; i += B::size) (one / B::load_unaligned(in + i)).store_unaligned(out + i);
+}
+template <class B>
+void roots(const float* in, float* out) {
+  for (std::size_t i = 0; i < kValues; i += B::size) sqrt(B::load_unaligned(in + i)).store_unaligned(out + i);
+}
 
 }  // namespace likeness::cost
