@@ -1,7 +1,7 @@
 // The numbers of docs/models/{burley_profile,gaussian_profile,random_walk_profile}.md and the picture on them.
 //
 //   subsurface_study gaussians          fits the constants of brdf/subsurface/gaussian_profile.h, and their errors
-//   subsurface_study halley             relative error of each step of Halley's method
+//   subsurface_study inverse            relative errors of the inverse in float, and of each step of Halley's method
 //   subsurface_study walk [WALKS]       profiles and shapes against random walks, and what a walk costs
 //   subsurface_study picture FILE.svg   profiles over the distance
 #include <ceres/ceres.h>
@@ -83,9 +83,27 @@ void gaussians() {
   row("4", error_of_gaussians<4>(), gaussian_cdf<4>(1e6));
 }
 
-// ---- halley
+// ---- inverse
 
-void halley() {
+// The closed form as it is published, in float.
+float published_inverse(float u) {
+  const float w = 1 - u, g = 1 + 4 * w * (2 * w + std::sqrt(1 + 4 * w * w));
+  const float n = std::pow(g, -1 / 3.0f), p = g * n * n;
+  return 3 * std::log((1 + p + n) / (4 * w));
+}
+
+void inverse() {
+  std::printf("| u | as published | here |\n| --- | --- | --- |\n");
+  for (const double decade : {1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1}) {
+    double published = 0, here = 0;
+    for (int i = 0; i < 1000; ++i) {
+      const double u = decade * std::pow(10, i / 1000.0), want = burley_icdf(u, 1 - u);
+      published = std::max(published, std::abs(published_inverse(float(u)) / want - 1));
+      here = std::max(here, std::abs(burley_icdf(float(u), float(1 - u)) / want - 1));
+    }
+    std::printf("| %g | %.0e | %.0e |\n", decade, published, here);
+  }
+  std::printf("\n");
   std::printf("| steps | u = 1e-4 | 0.1 | 0.5 | 0.9 | 0.99 | 0.999 | 1 - 1e-4 | 1 - 2^-24 |\n");
   std::printf("| --- | --- | --- | --- | --- | --- | --- | --- | --- |\n");
   for (int steps = 0; steps <= 4; ++steps) {
@@ -125,15 +143,22 @@ WalkError error_against_walk(const std::vector<double>& edges, const WalkProfile
   return {std::sqrt(sum / rest), worst};
 }
 
+template <class P>
+double best_shape(double s, P&& error) {
+  double best = s;
+  for (double shape = s / 2; shape < 2 * s; shape *= 1.002)
+    if (error(shape).rms < error(best).rms) best = shape;
+  return best;
+}
+
 void walk(std::int64_t walks) {
   const auto edges = ring_edges(240, 1e-3, 1e3);
   for (const Incidence incidence : {Incidence::kPencil, Incidence::kDiffuse}) {
     const bool pencil = incidence == Incidence::kPencil;
-    std::printf(
-        "\n%s\n\n| A | alpha | A of the walk | s, eq. %d | s, best | Burley | best s | 4 | 2 | 1 Gaussian | walks/s "
-        "|\n",
-        pencil ? "Light along the normal" : "Light from all sides", pencil ? 5 : 6);
-    std::printf("| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n");
+    std::printf("\n%s\n\n| A | alpha | A of the walk | s, eq. %d | s, best | Burley | best s | 4 | 2 | 1 Gaussian |",
+                pencil ? "Light along the normal" : "Light from all sides", pencil ? 5 : 6);
+    std::printf(" collisions | walks / CPU s |\n");
+    std::printf("| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n");
     for (const double albedo : {0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95}) {
       const double alpha = single_scattering_albedo(albedo, incidence);
       const std::clock_t begin = std::clock();
@@ -143,9 +168,7 @@ void walk(std::int64_t walks) {
       const auto burley = [&](double shape) {
         return error_against_walk(edges, profile, [&](double r) { return burley_cdf(shape * r); });
       };
-      double best = s;
-      for (double shape = s / 2; shape < 2 * s; shape *= 1.002)
-        if (burley(shape).rms < burley(best).rms) best = shape;
+      const double best = best_shape(s, burley);
       const auto text = [](const WalkError& e) {
         char buffer[40];
         std::snprintf(buffer, sizeof buffer, "%.1f, %.1f %%", 100 * e.rms, 100 * e.worst);
@@ -154,14 +177,26 @@ void walk(std::int64_t walks) {
       const auto gaussian = [&]<int kCount>(std::integral_constant<int, kCount>) {
         return text(error_against_walk(edges, profile, [&](double r) { return gaussian_cdf<kCount>(squared(s * r)); }));
       };
-      std::printf("| %.2f | %.5f | %.4f ± %.4f | %.3f | %.3f | %s | %s | %s | %s | %s | %.0f |\n", albedo, alpha,
+      std::printf("| %.2f | %.5f | %.4f ± %.4f | %.3f | %.3f | %s | %s | %s | %s | %s | %.0f | %.3g |\n", albedo, alpha,
                   profile.total.mean(), profile.total.error(), s, best, text(burley(s)).c_str(),
                   text(burley(best)).c_str(), gaussian(std::integral_constant<int, 4>()).c_str(),
                   gaussian(std::integral_constant<int, 2>()).c_str(),
-                  gaussian(std::integral_constant<int, 1>()).c_str(), double(walks) / seconds);
+                  gaussian(std::integral_constant<int, 1>()).c_str(), double(profile.where.collisions) / double(walks),
+                  double(walks) / seconds);
       std::fflush(stdout);
     }
   }
+  const WalkProfile refracted = random_walk_profile({.alpha = 0.99, .eta = 1.4}, Incidence::kPencil, edges, walks, 1);
+  const double s = burley_shape_searchlight(refracted.total.mean());
+  std::printf("\neta 1.4, alpha 0.99: A %.3f, s of eq. 5 %.3f, best s %.3f\n", refracted.total.mean(), s,
+              best_shape(s, [&](double shape) {
+                return error_against_walk(edges, refracted, [&](double r) { return burley_cdf(shape * r); });
+              }));
+  const std::clock_t begin = std::clock();
+  const WalkProfile white = random_walk_profile({.alpha = 1}, Incidence::kPencil, edges, 2000, 1);
+  std::printf("alpha 1: %.0f collisions and %.2g CPU ms a walk, %.2f %% of the light unfinished\n",
+              double(white.where.collisions) / 2000, 1e3 * double(std::clock() - begin) / CLOCKS_PER_SEC / 2000,
+              100 * white.where.unfinished / 2000);
 }
 
 // ---- picture
@@ -234,11 +269,11 @@ std::string picture() {
 int run(int count, char** words) {
   const std::string_view what = count > 1 ? words[1] : "";
   if (what == "gaussians") gaussians();
-  else if (what == "halley") halley();
+  else if (what == "inverse") inverse();
   else if (what == "walk") walk(count > 2 ? std::atoll(words[2]) : 200000);
   else if (what == "picture" && count > 2) return (std::ofstream(words[2]) << picture()) ? 0 : 3;
   else {
-    std::fprintf(stderr, "usage: subsurface_study gaussians|halley|walk [WALKS]|picture FILE.svg\n");
+    std::fprintf(stderr, "usage: subsurface_study gaussians|inverse|walk [WALKS]|picture FILE.svg\n");
     return 2;
   }
   return 0;
