@@ -49,29 +49,33 @@ class HairClosed {
   //     sine2, cosine2   sin^2 and cos^2 of phi / 2: neither loses digits where it is small
   //     cos_theta        of the inclination, in [0, 1]
   //     sigma_a          absorption per radius, >= 0
-  HairFarLobes<S> read(const S& sine2, const S& cosine2, const S& cos_theta, const Rgb<S>& sigma_a) const {
+  //     log_factor       logarithm of a factor for each lobe
+  HairFarLobes<S> read(const S& sine2, const S& cosine2, const S& cos_theta, const Rgb<S>& sigma_a,
+                       const HairLogFactors<S>& log_factor = no_factors<S>()) const {
     using namespace closed_fit;
     const S u = S(2) * cos_theta - S(1), x = cosine2 - sine2, g = S(4) * sine2, cos2 = cos_theta * cos_theta;
     const S least = hair_least_way(1.55, cos_theta);
     HairFarLobes<S> n;
 
     const S y = sqrt(S(cosine2 + edge2_));
-    n.r = y * exp(S(at(r_[0], u) + y * (at(r_[1], u) + y * at(r_[2], u))));
+    n.r = y * exp(S(at(r_[0], u) + y * (at(r_[1], u) + y * at(r_[2], u)) + log_factor[0]));
 
-    const S log_tt = at(tt_[0], u) + x * (at(tt_[1], u) + x * (at(tt_[2], u) + x * at(tt_[3], u)));
+    const S log_tt = at(tt_[0], u) + x * (at(tt_[1], u) + x * (at(tt_[2], u) + x * at(tt_[3], u))) + log_factor[1];
     const S more_tt = positive(S(at(tt_way_[0], u) + x * at(tt_way_[1], u)));
     n.tt = for_channels(sigma_a, [&](const S& sigma) {
       return exp(S(log_tt - hair_depth(sigma, least, more_tt, constant<S>(kTtCurve)))) * cos2;
     });
 
     const S root = at(trt_root_[0], u), r2 = root * root + constant<S>(1e-6);
-    const S log_trt = at(trt_[0], u) - at(trt_[1], u) * (g / (sqrt(S(r2 + g)) + sqrt(r2))) + at(trt_[2], u) * g;
+    const S log_trt =
+        at(trt_[0], u) - at(trt_[1], u) * (g / (sqrt(S(r2 + g)) + sqrt(r2))) + at(trt_[2], u) * g + log_factor[2];
     const S more_trt = positive(S(at(trt_way_[0], u) + x * at(trt_way_[1], u)));
     n.trt = for_channels(sigma_a, [&](const S& sigma) {
       return exp(S(log_trt - hair_depth(sigma, S(least + least), more_trt, constant<S>(kTrtCurve)))) * cos2;
     });
 
-    const S bare = exp(power_series(kLonger, cos_theta)) * cos_theta * constant<S>(0.5 / std::numbers::pi);
+    const S bare =
+        exp(S(power_series(kLonger, cos_theta) + log_factor[3])) * cos_theta * constant<S>(0.5 / std::numbers::pi);
     const S way = least * power_series(kLongerWay, cos_theta);
     const S let_out = larger(S(cos_theta / power_series(kLongerLoss, cos_theta)), constant<S>(kTiny<S>));
     n.longer = for_channels(sigma_a, [&](const S& sigma) { return hair_longer_share(S(sigma * way), let_out) * bare; });

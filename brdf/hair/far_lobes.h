@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cmath>
 
 #include "brdf/vector.h"
@@ -14,6 +15,15 @@ struct HairFarLobes {
   S r = S(0.0);
   Rgb<S> tt, trt, longer;
 };
+
+// The logarithm of a factor for each lobe: what is to be multiplied by an exponential anyway, as M_p begins with one,
+// costs none of its own.
+template <Scalar S>
+using HairLogFactors = std::array<S, 4>;
+template <Scalar S>
+HairLogFactors<S> no_factors() {
+  return {S(0.0), S(0.0), S(0.0), S(0.0)};
+}
 
 // f(channel of a) for each channel.
 template <Scalar S, class F>

@@ -12,6 +12,9 @@ namespace likeness::brdf {
 // Below this a roughness is held: v = 5e-5 and s = 0.0017, half a degree. A smooth fibre is another model.
 inline constexpr double kHairRoughnessFloor = 0.01;
 
+// What a cosine that is divided by is held above, in every precision: at a pole all return the same.
+inline constexpr double kHairLeastCosine = 1e-18;
+
 // Variance of the longitudinal lobe R from the longitudinal roughness beta_m in [0, 1], [rad^2]. TT has a quarter of
 // it, TRT and all longer paths four times as much (the ratios of Marschner 2003, squared).
 // Source  Chiang 2016, section 4.1, a fit made so that beta_m is perceptually even; the digits are those of pbrt-v3.
@@ -62,7 +65,7 @@ struct HairTerms {
     const std::array<S, 3> of_v{hair_mp_scale(v[0]), hair_mp_scale(v[1]), hair_mp_scale(v[2])};
     std::array<S, kHairLobes> d;
     for (std::size_t p = 0; p < kHairLobes; ++p) {
-      const S m = exp(S(-versine[p])) * bessel_i0_scaled(cosines[p]) * of_v[p < 3 ? p : 2];
+      const S m = scaled_exp(S(bessel_i0_scaled(cosines[p]) * of_v[p < 3 ? p : 2]), versine[p]);
       d[p] = m * (p < 3 ? trimmed_logistic(distance[p < 3 ? p : 0], s, scale) : even);
     }
     return d;
@@ -73,8 +76,8 @@ struct HairTerms {
     const auto& a = attenuations;
     return a[0] * d[0] + a[1] * d[1] + a[2] * d[2] + a[3] * d[3];
   }
-  // S, [1/sr], without the cosine: grows without bound towards the poles, where the cosine is held above kTiny.
-  Rgb<S> eval() const { return eval_cos() * S(S(1) / larger(cos_i, constant<S>(kTiny<S>))); }
+  // S, [1/sr], without the cosine: grows without bound towards the poles, where the cosine is held above 1e-18.
+  Rgb<S> eval() const { return eval_cos() * S(S(1) / larger(cos_i, constant<S>(kHairLeastCosine))); }
   // Density over directions with which `sample` proposes, [1/sr].
   S pdf() const { return pdf(densities()); }
   S pdf(const std::array<S, kHairLobes>& d) const {
@@ -205,12 +208,13 @@ struct HairFibre {
     return atan2(w.z, pick(usable, w.y, S(1)));
   }
 
- private:
   // theta + angle. Beyond a pole the direction comes down on the other side: its cosine is folded.
   static Inclination<S> turned(const Inclination<S>& i, const S& angle) {
     const S sine = sin(angle), cosine = cos(angle);
     return {i.sine * cosine + i.cosine * sine, S(abs(S(i.cosine * cosine - i.sine * sine)))};
   }
+
+ private:
   static Vec3<S> proposed(const View& from, const S& choice, const S& u, const S& w, const S& a) {
     // The first three lobes in order, what is left for the fourth.
     const auto chance = hair_chances(from.attenuations);

@@ -92,8 +92,10 @@ struct HairLut {
   //     cos_theta  of the inclination, in [0, 1]
   //     width      hair_lut_width(s)
   //     sigma_a    absorption per radius, >= 0
+  //     log_factor logarithm of a factor for each lobe
   template <Scalar S>
-  HairFarLobes<S> read(const S& distance, const S& cos_theta, const S& width, const Rgb<S>& sigma_a) const {
+  HairFarLobes<S> read(const S& distance, const S& cos_theta, const S& width, const Rgb<S>& sigma_a,
+                       const HairLogFactors<S>& log_factor = no_factors<S>()) const {
     const S pi = constant<S>(std::numbers::pi), turn = distance * constant<S>(1 / std::numbers::pi);
     S log_r, log_tt, log_trt, way[4];
     r.read(bent(dense_r, S(pi - distance)), cos_theta, width, &log_r);
@@ -103,7 +105,9 @@ struct HairLut {
 
     const S least = hair_least_way(eta, cos_theta), cos2 = cos_theta * cos_theta;
     HairFarLobes<S> n;
-    n.r = exp(log_r);
+    n.r = exp(S(log_r + log_factor[0]));
+    log_tt = log_tt + log_factor[1];
+    log_trt = log_trt + log_factor[2];
     n.tt = for_channels(
         sigma_a, [&](const S& sigma) { return exp(S(log_tt - hair_depth(sigma, least, way[0], way[1]))) * cos2; });
     n.trt = for_channels(sigma_a, [&](const S& sigma) {
@@ -116,7 +120,7 @@ struct HairLut {
       const S k = c.node * S(3) + constant<S>(i);
       rest[i] = mix(at(longer.data.data(), k), at(longer.data.data(), S(k + S(3))), c.way);
     }
-    const S bare = exp(rest[0]) * cos_theta * constant<S>(0.5 / std::numbers::pi);
+    const S bare = exp(S(rest[0] + log_factor[3])) * cos_theta * constant<S>(0.5 / std::numbers::pi);
     const S u = larger(S(rest[2] * cos_theta), constant<S>(kTiny<S>));
     n.longer = for_channels(sigma_a, [&](const S& sigma) { return hair_longer_share(S(sigma * rest[1]), u) * bare; });
     return n;

@@ -10,48 +10,54 @@ namespace likeness::brdf {
 inline constexpr std::array kHairFarParameters{HairFibre<double>::kParameters[0], HairFibre<double>::kParameters[2],
                                                HairFibre<double>::kParameters[3], HairFibre<double>::kParameters[4]};
 
-// What the rows with energy-conserving M_p read: 9 numbers of HairTerms, cosines of the inclinations, absorption.
+// What the rows with energy-conserving M_p read: its scale for R, TT and TRT, (1 - cos(theta_i + theta_o)) / v and
+// cos cos / v of each lobe with its tilt, the cosines of the inclinations, absorption.
 template <Scalar S>
 struct HairLobesRow {
-  static constexpr std::size_t kFeatures = 14;
+  static constexpr std::size_t kFeatures = 16;
 
   static void store(const HairPair<S>& at, const S* in, S* f) {
-    const HairFibre<S> fibre{
-        .sigma_a = {in[0], in[1], in[2]}, .eta = S(1), .beta_m = in[3], .beta_n = in[4], .tilt_deg = in[5]};
-    const HairTerms<S> t = fibre.view(at.o, S(0), S(0)).terms(at.i, S(0));
-    *f++ = t.v[0];
-    for (const S& x : t.versine) *f++ = x;
-    for (const S& x : t.cosines) *f++ = x;
+    const S v = hair_variance(in[3]), alpha = in[5] * constant<S>(std::numbers::pi / 180);
+    const S variances[]{v, S(v * S(0.25)), S(v * S(4)), S(v * S(4))};
+    const Inclination<S> o[]{HairFibre<S>::turned(at.o, S(S(2) * alpha)), HairFibre<S>::turned(at.o, S(-alpha)),
+                             HairFibre<S>::turned(at.o, S(S(-4) * alpha)), at.o};
+    for (std::size_t p = 0; p < 3; ++p) f[p] = hair_mp_scale(variances[p]);
+    for (std::size_t p = 0; p < 4; ++p) {
+      f[3 + p] = versine_of_sum(at.i, o[p]) / variances[p];
+      f[7 + p] = at.i.cosine * o[p].cosine / variances[p];
+    }
+    f += 11;
     for (const S& x : {at.i.cosine, at.o.cosine, in[0], in[1], in[2]}) *f++ = x;
   }
-  // f and f_cos from the features and N_p.
+  static const S& cos_o(const S* f) { return f[12]; }
+  static Rgb<S> sigma_a(const S* f) { return {f[13], f[14], f[15]}; }
+  // The exponentials of M_p, as logarithms.
+  static HairLogFactors<S> exponents(const S* f) { return {S(-f[3]), S(-f[4]), S(-f[5]), S(-f[6])}; }
+  // f and f_cos from the features and N_p times those exponentials.
   static void write(const S* f, const HairFarLobes<S>& n, S* out) {
-    const S v[]{f[0], S(f[0] * S(0.25)), S(f[0] * S(4)), S(f[0] * S(4))};
-    const auto m = [&](std::size_t p) { return hair_mp(v[p], f[1 + p], f[5 + p]); };
-    write_scattering(Rgb<S>(S(n.r * m(0))) + n.tt * m(1) + n.trt * m(2) + n.longer * m(3), f[9], out);
+    const auto m = [&](std::size_t p) { return bessel_i0_scaled(f[7 + p]) * f[p < 3 ? p : 2]; };
+    write_scattering(Rgb<S>(S(n.r * m(0))) + n.tt * m(1) + n.trt * m(2) + n.longer * m(3), f[11], out);
   }
-  static Rgb<S> sigma_a(const S* f) { return {f[11], f[12], f[13]}; }
-  static const S& cos_o(const S* f) { return f[10]; }
 };
 
 struct HairLutRow : HairForms<HairLutRow> {
   static constexpr std::string_view kName = "hair_lut";
   static constexpr std::string_view kText = "a fibre of hair, far field from tables, energy-conserving";
   static constexpr auto kParameters = kHairFarParameters;
-  static constexpr std::size_t kFeatures = 16;  // those of HairLobesRow, |phi|, the place of the width in the tables
+  static constexpr std::size_t kFeatures = 18;  // those of HairLobesRow, |phi|, the place of the width in the tables
   using Tables = HairLut;
   static const Tables& tables() { return hair_lut_at_155(); }
 
   template <Scalar S>
   static void store(const HairPair<S>& at, const S* in, S* f) {
     HairLobesRow<S>::store(at, in, f);
-    f[14] = at.distance;
-    f[15] = hair_lut_width(hair_width(in[4]));
+    f[16] = at.distance;
+    f[17] = hair_lut_width(hair_width(in[4]));
   }
   template <Scalar S>
   static void evaluate(const Tables& lut, const S* f, S* out) {
     using Lobes = HairLobesRow<S>;
-    Lobes::write(f, lut.read(f[14], Lobes::cos_o(f), f[15], Lobes::sigma_a(f)), out);
+    Lobes::write(f, lut.read(f[16], Lobes::cos_o(f), f[17], Lobes::sigma_a(f), Lobes::exponents(f)), out);
   }
 };
 
@@ -59,19 +65,20 @@ struct HairClosedRow : HairForms<HairClosedRow> {
   static constexpr std::string_view kName = "hair_closed";
   static constexpr std::string_view kText = "a fibre of hair, far field in closed form";
   static constexpr auto kParameters = kHairFarParameters;
-  static constexpr std::size_t kFeatures = 17;  // those of HairLobesRow, sin^2 and cos^2 of phi / 2, the width
+  static constexpr std::size_t kFeatures = 19;  // those of HairLobesRow, sin^2 and cos^2 of phi / 2, the width
 
   template <Scalar S>
   static void store(const HairPair<S>& at, const S* in, S* f) {
     HairLobesRow<S>::store(at, in, f);
-    f[14] = at.sin2_half;
-    f[15] = at.cos2_half;
-    f[16] = hair_width(in[4]);
+    f[16] = at.sin2_half;
+    f[17] = at.cos2_half;
+    f[18] = hair_width(in[4]);
   }
   template <Scalar S>
   static void evaluate(const S* f, S* out) {
     using Lobes = HairLobesRow<S>;
-    Lobes::write(f, HairClosed<S>(f[16]).read(f[14], f[15], Lobes::cos_o(f), Lobes::sigma_a(f)), out);
+    Lobes::write(f, HairClosed<S>(f[18]).read(f[16], f[17], Lobes::cos_o(f), Lobes::sigma_a(f), Lobes::exponents(f)),
+                 out);
   }
 };
 
