@@ -33,9 +33,9 @@ TYPED_TEST(Conductor, IsTheTextbooksFormula) {
   for (int i = 0; i < 20000; ++i) {
     const auto c = float(random.uniform()), eta = float(random.uniform(0.05, 4)), k = float(random.uniform(0.05, 8));
     const double got = evaluate_row<FresnelConductor, TypeParam>({c, eta, eta, eta, k, k, k})[1];
-    worst = std::max(worst, relative_difference(got, double(textbook(c, {eta, k}))));
+    worst = std::max(worst, relative_difference(got, double(textbook(c, {eta, k})), 1e-300));
   }
-  EXPECT_LE(worst, kIsFloat<TypeParam> ? 2e-6 : 3e-15);  // measured 6e-7 and 1.1e-15
+  EXPECT_LE(worst, kIsFloat<TypeParam> ? 2e-6 : 3e-15);  // measured 4.2e-7 and 7.1e-16
 }
 
 TYPED_TEST(Conductor, IsADielectricWhereNothingIsAbsorbed) {

@@ -44,7 +44,7 @@ TYPED_TEST(Film, MeetsItsFile) {
   if (read_reference("thin_film.csv").empty()) GTEST_SKIP() << "no reference/thin_film.csv";
   const double worst = worst_against_file<ThinFilmReflectance, TypeParam>("thin_film.csv", {});
   this->RecordProperty("worst", std::to_string(worst));
-  EXPECT_LE(worst, kIsFloat<TypeParam> ? 2e-6 : 2e-14);  // measured 9e-7 and 6e-15; the demand is 2e-5 and 1e-12
+  EXPECT_LE(worst, kIsFloat<TypeParam> ? 2e-6 : 2e-14);  // measured 2.3e-7 and 5.6e-15; the demand is 2e-5 and 1e-12
 }
 
 TYPED_TEST(Film, IsAirysSumInAnyMedia) {

@@ -104,7 +104,7 @@ TYPED_TEST(Harmonics, RotateAsTheFunctionDoes) {
     for (std::size_t k = 0; k < kShCount; ++k) {
       const double want =
           over_sphere([&](const Vec3<double>& d) { return f.eval(back * d) * Sh<double>::basis(d)[k]; });
-      EXPECT_NEAR(got[k], want, kIsFloat<TypeParam> ? 2e-6 : 1e-14) << i << " " << k;  // measured 3e-15; demand 1e-12
+      EXPECT_NEAR(got[k], want, kIsFloat<TypeParam> ? 2e-6 : 1e-14) << i << " " << k;  // measured 3.3e-7 and 3.4e-15
     }
   }
 }
