@@ -133,25 +133,28 @@ struct Callisto {
     X fresnel;  // weight of the specular's rise to white [0, 1]; falloff n_s
   };
 
+  // The alpha of the second lobe.
+  S second_alpha() const { return alpha_of_roughness(smaller(S(roughness * dual_specular_roughness_scale), S(1))); }
+
   // Needs both directions above the horizon; elsewhere finite and meaningless.
   template <Scalar T>
   Terms<S> terms(const Geometry<T>& g) const {
-    const T cos_i = pick(g.above, g.cos_i, T(1)), cos_o = pick(g.above, g.cos_o, T(1));
     Terms<S> t;
+    diffuse_terms(g, t);
+    specular_terms(g, t);
+    shade_term(g, t);
+    return t;
+  }
+  template <Scalar T>
+  void diffuse_terms(const Geometry<T>& g, Terms<S>& t) const {
     t.rise =
         power5(g.versine_d, remap(diffuse_fresnel_falloff)) * power5(g.cos_h, remap(diffuse_fresnel_tangent_falloff));
     t.retro =
         power5(g.versine_h, remap(retroreflection_falloff)) * power5(g.cos_d, remap(retroreflection_tangent_falloff));
-
-    // 1 - alpha_s (1 - smoothstep(0, end, cos_i)), where alpha_s = (1 - a) (1 - b): written as a sum of positive terms,
-    // which keeps its digits where it vanishes, and so that end = 0 is a step and not 0 / 0.
-    const T a = g.versine_d * g.versine_d * g.versine_d, b = g.versine_h * g.versine_h * g.versine_h;
-    const T mask = (T(1) - a) * (T(1) - b);
-    const S end = smooth_terminator_length * mask;
-    const auto inside = greater(end, cos_i);
-    const S u = pick(inside, S(cos_i / pick(inside, end, S(1))), S(1));
-    t.shade = pick(inside, S(T(a + b * (T(1) - a)) + mask * (u * u * (S(3) - (u + u)))), S(1));
-
+  }
+  template <Scalar T>
+  void specular_terms(const Geometry<T>& g, Terms<S>& t) const {
+    const T cos_i = pick(g.above, g.cos_i, T(1)), cos_o = pick(g.above, g.cos_o, T(1));
     const S alpha = alpha_of_roughness(roughness);
     const S alpha_2 = second_alpha();
     t.lobe = mix(S(ggx_distribution(alpha, g.cos_h, g.sin2_h) * ggx_visibility(alpha, cos_i, cos_o)),
@@ -160,31 +163,62 @@ struct Callisto {
 
     const S r = remap(specular_fresnel_falloff);
     t.fresnel = clamp01(S(S(2) - r)) * power5(g.versine_d, r);
-    return t;
+  }
+  // 1 - alpha_s (1 - smoothstep(0, end, cos_i)), where alpha_s = (1 - a) (1 - b): written as a sum of positive terms,
+  // which keeps its digits where it vanishes, and so that end = 0 is a step and not 0 / 0.
+  template <Scalar T>
+  void shade_term(const Geometry<T>& g, Terms<S>& t) const {
+    const T cos_i = pick(g.above, g.cos_i, T(1));
+    const T a = g.versine_d * g.versine_d * g.versine_d, b = g.versine_h * g.versine_h * g.versine_h;
+    const T mask = (T(1) - a) * (T(1) - b);
+    const S end = smooth_terminator_length * mask;
+    const auto inside = greater(end, cos_i);
+    const S u = pick(inside, S(cos_i / pick(inside, end, S(1))), S(1));
+    t.shade = pick(inside, S(T(a + b * (T(1) - a)) + mask * (u * u * (S(3) - (u + u)))), S(1));
   }
 
+  // c1 times the diffuse of one channel, whose shape is Lambert's 1 / pi or what stands in its place.
+  template <Scalar X>
+  static X diffuse_part(const Terms<X>& t, const X& metallic, const X& rho, const X& rho_f, const X& rho_r,
+                        const X& shape) {
+    const X diffuse = rho * (X(1) - metallic) * shape;
+    const X c1 = (X(1) + (rho_f - X(1)) * t.rise) * (X(1) + (rho_r - X(1)) * t.retro);
+    return c1 * diffuse;
+  }
+  // f_ggx of one channel.
+  template <Scalar X>
+  static X specular_part(const Terms<X>& t, const X& metallic, const X& specular, const X& rho) {
+    const X f0 = mix(X(constant<X>(0.08) * specular), rho, metallic);
+    return mix(f0, X(1), t.fresnel) * t.lobe;
+  }
   // One channel of f from its terms and that channel's reflectance and intensities.
   template <Scalar X>
   static X combine(const Terms<X>& t, const X& metallic, const X& specular, const X& rho, const X& rho_f,
-                   const X& rho_r, const X& o) {
-    const X f0 = mix(X(constant<X>(0.08) * specular), rho, metallic);
-    const X diffuse = rho * (X(1) - metallic) * constant<X>(std::numbers::inv_pi);
-    const X c1 = (X(1) + (rho_f - X(1)) * t.rise) * (X(1) + (rho_r - X(1)) * t.retro);
+                   const X& rho_r, const X& o, const X& shape = constant<X>(std::numbers::inv_pi)) {
     const X c2 = mix(X(1), t.shade, o);
-    return (c1 * diffuse + mix(f0, X(1), t.fresnel) * t.lobe) * c2;
+    return (diffuse_part(t, metallic, rho, rho_f, rho_r, shape) + specular_part(t, metallic, specular, rho)) * c2;
+  }
+
+  // Calls channel(rho, rho_f, rho_r, o) for red, green and blue.
+  template <class F>
+  Rgb<S> for_channels(F&& channel) const {
+    const Rgb<S> rho_f = diffuse_fresnel_tint * diffuse_fresnel;
+    const Rgb<S> rho_r = retroreflection_tint * retroreflection;
+    const Rgb<S> o = smooth_terminator_tint * smooth_terminator;
+    return {channel(base_color.r, rho_f.r, rho_r.r, o.r), channel(base_color.g, rho_f.g, rho_r.g, o.g),
+            channel(base_color.b, rho_f.b, rho_r.b, o.b)};
+  }
+  // f from terms and the shape of the diffuse; 0 where the mask does not hold.
+  template <class M>
+  Rgb<S> combined(const M& above, const Terms<S>& t, const S& shape) const {
+    return for_channels([&](const S& rho, const S& rho_f, const S& rho_r, const S& o) {
+      return S(pick(above, combine(t, metallic, specular, rho, rho_f, rho_r, o, shape), S(0)));
+    });
   }
 
   template <Scalar T>
   Rgb<S> eval(const Geometry<T>& g) const {
-    const Terms<S> t = terms(g);
-    const Rgb<S> rho_f = diffuse_fresnel_tint * diffuse_fresnel;
-    const Rgb<S> rho_r = retroreflection_tint * retroreflection;
-    const Rgb<S> o = smooth_terminator_tint * smooth_terminator;
-    const auto channel = [&](const S& rho, const S& in_f, const S& in_r, const S& in_o) {
-      return S(pick(g.above, combine(t, metallic, specular, rho, in_f, in_r, in_o), S(0)));
-    };
-    return {channel(base_color.r, rho_f.r, rho_r.r, o.r), channel(base_color.g, rho_f.g, rho_r.g, o.g),
-            channel(base_color.b, rho_f.b, rho_r.b, o.b)};
+    return combined(g.above, terms(g), constant<S>(std::numbers::inv_pi));
   }
   Rgb<S> eval(const Vec3<S>& to_light, const Vec3<S>& to_view) const { return eval(Geometry<S>(to_light, to_view)); }
 
@@ -213,7 +247,6 @@ struct Callisto {
   }
 
  private:
-  S second_alpha() const { return alpha_of_roughness(smaller(S(roughness * dual_specular_roughness_scale), S(1))); }
   static S remap(const S& x) { return S(2) * (S(1) - x); }
 };
 
