@@ -14,6 +14,7 @@ enum class Energy {
 struct Promises {
   bool reciprocal = false;  // f(l, v) = f(v, l)
   Energy energy = Energy::kUnbounded;
+  bool fades = true;  // f cos_i goes to 0 with cos_i
 };
 
 }  // namespace likeness::brdf

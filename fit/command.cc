@@ -145,7 +145,7 @@ int run_fit(FitOptions& o) {
 
 std::string model_list() {
   std::string out;
-  for (const std::string_view name : brdf::kModelNames) out += (out.empty() ? "" : ", ") + std::string(name);
+  for (const std::string_view name : fitted_models()) out += (out.empty() ? "" : ", ") + std::string(name);
   return out;
 }
 

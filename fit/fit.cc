@@ -20,16 +20,22 @@ namespace {
 using brdf::AnyBrdf;
 using brdf::Tier;
 
+std::string list_of(const std::vector<std::string_view>& names) {
+  std::string list;
+  for (const std::string_view name : names) list += (list.empty() ? "" : ", ") + std::string(name);
+  return list;
+}
+
 AnyBrdf model_named(const std::string& name) {
   AnyBrdf model;
+  const std::vector<std::string_view> known = fitted_models();
   if (!brdf::model_of_name(name, model)) {
-    const std::string near = files::nearest_name(name, brdf::kModelNames.data(), brdf::kModelNames.size());
-    std::string known;
-    for (const std::string_view model_name : brdf::kModelNames)
-      known += (known.empty() ? "" : ", ") + std::string(model_name);
-    throw files::UsageError("--model " + name + " is not one of " + known +
+    const std::string near = files::nearest_name(name, known.data(), known.size());
+    throw files::UsageError("--model " + name + " is not one of " + list_of(known) +
                             (near.empty() ? "" : "; did you mean " + near + "?"));
   }
+  if (!brdf::kFittedModels[model.index()])
+    throw files::UsageError("--model " + name + " is a model that is not fitted; those that are: " + list_of(known));
   return model;
 }
 
@@ -42,6 +48,9 @@ std::string label_of(const AnyBrdf& model, Tier tier) {
   if (name == "disney2012") return "Disney 2012";
   if (name == "ggx") return "GGX";
   if (name == "lambert") return "Lambert";
+  if (name == "oren_nayar") return "Oren-Nayar, Fujii";
+  if (name == "oren_nayar_1994") return "Oren-Nayar 1994";
+  if (name == "proxima") return "Proxima";
   return "Burley diffuse";
 }
 
@@ -158,6 +167,13 @@ std::vector<std::string> notes_of(const Result& result) {
 }
 
 }  // namespace
+
+std::vector<std::string_view> fitted_models() {
+  std::vector<std::string_view> names;
+  for (std::size_t i = 0; i < brdf::kModelNames.size(); ++i)
+    if (brdf::kFittedModels[i]) names.push_back(brdf::kModelNames[i]);
+  return names;
+}
 
 void check(const Options& options) {
   const AnyBrdf model = model_named(options.model);

@@ -2,6 +2,8 @@
 
 #include <functional>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "fit/interrupted.h"
 #include "fit/measured/measured.h"
@@ -21,6 +23,9 @@ namespace likeness::fit {
 // begins      is told the label of each model or tier when its fit begins; empty: nobody.
 Result fit_material(const measured::Material& material, const std::string& name, const Options& options,
                     const std::function<bool()>& stop = {}, const std::function<void(const std::string&)>& begins = {});
+
+// Names of the models that can be fitted.
+std::vector<std::string_view> fitted_models();
 
 // Throws files::UsageError, naming the option, its value and what is allowed.
 void check(const Options& options);

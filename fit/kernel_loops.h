@@ -257,6 +257,20 @@ struct CallistoLoop {
   }
 };
 
+// Calls run<M>() for the model that an index of AnyBrdf names. Models that are not fitted have no code here.
+template <class F>
+void for_model(std::size_t model, F&& run) {
+  const auto run_it = [&]<template <class> class M>(const M<double>*) { run.template operator()<M>(); };
+  const auto run_if = [&]<std::size_t I>() {
+    using Model = std::variant_alternative_t<I, brdf::AnyBrdf>;
+    if constexpr (brdf::kFitted<Model>)
+      if (model == I) run_it(static_cast<const Model*>(nullptr));
+  };
+  [&]<std::size_t... I>(std::index_sequence<I...>) {
+    (run_if.template operator()<I>(), ...);
+  }(std::make_index_sequence<std::variant_size_v<brdf::AnyBrdf>>{});
+}
+
 template <class B>
 void evaluate(const KernelInput<NumberOf<B>>& in, KernelOutput& out) {
   out.loss = 0;
@@ -264,20 +278,11 @@ void evaluate(const KernelInput<NumberOf<B>>& in, KernelOutput& out) {
     out.gradient[p] = 0;
     for (int q = 0; q < kMaxChannels; ++q) out.hessian[p][q] = 0;
   }
-  switch (in.model) {
-    case 0:
-      return CallistoLoop<B>::run(in, out);
-    case 1:
-      return run_model<brdf::Disney2012, B>(in, out);
-    case 2:
-      return run_model<brdf::Ggx, B>(in, out);
-    case 3:
-      return run_model<brdf::Lambert, B>(in, out);
-    case 4:
-      return run_model<brdf::BurleyDiffuse, B>(in, out);
-  }
+  for_model(in.model, [&]<template <class> class M>() {
+    if constexpr (std::is_same_v<M<B>, Callisto<B>>) CallistoLoop<B>::run(in, out);
+    else run_model<M, B>(in, out);
+  });
 }
-static_assert(std::variant_size_v<brdf::AnyBrdf> == 5, "a model was added: give it a case in each switch of this file");
 
 template <template <class> class M, class B>
 void model_values(const ValueInput& in) {
@@ -322,34 +327,12 @@ void table_model(const TableInput& in, TableOutput& out) {
 template <class B>
 void table(const TableInput& in, TableOutput& out) {
   out = {};
-  switch (in.model) {
-    case 0:
-      return table_model<Callisto, B>(in, out);
-    case 1:
-      return table_model<brdf::Disney2012, B>(in, out);
-    case 2:
-      return table_model<brdf::Ggx, B>(in, out);
-    case 3:
-      return table_model<brdf::Lambert, B>(in, out);
-    case 4:
-      return table_model<brdf::BurleyDiffuse, B>(in, out);
-  }
+  for_model(in.model, [&]<template <class> class M>() { table_model<M, B>(in, out); });
 }
 
 template <class B>
 void values(const ValueInput& in) {
-  switch (in.model) {
-    case 0:
-      return model_values<Callisto, B>(in);
-    case 1:
-      return model_values<brdf::Disney2012, B>(in);
-    case 2:
-      return model_values<brdf::Ggx, B>(in);
-    case 3:
-      return model_values<brdf::Lambert, B>(in);
-    case 4:
-      return model_values<brdf::BurleyDiffuse, B>(in);
-  }
+  for_model(in.model, [&]<template <class> class M>() { model_values<M, B>(in); });
 }
 
 // The kernels of the instruction set that the including file is compiled for.

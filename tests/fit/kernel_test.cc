@@ -145,8 +145,16 @@ std::vector<bool> intensities(const brdf::AnyBrdf& model) {
       model);
 }
 
-TEST(Kernel, GradientAndCurvatureAreThoseOfTheResidualsForEveryModelAndLoss) {
+// Indices of the models that have a kernel.
+std::vector<std::size_t> fitted() {
+  std::vector<std::size_t> out;
   for (std::size_t model = 0; model < brdf::kModelNames.size(); ++model)
+    if (brdf::kFittedModels[model]) out.push_back(model);
+  return out;
+}
+
+TEST(Kernel, GradientAndCurvatureAreThoseOfTheResidualsForEveryModelAndLoss) {
+  for (const std::size_t model : fitted())
     for (const Loss loss : {Loss::kLog, Loss::kCubeRoot})
       for (const unsigned seed : {1u, 2u, 3u}) {
         SCOPED_TRACE(std::string(brdf::kModelNames[model]) + (loss == Loss::kLog ? ", log, " : ", cuberoot, ") +
@@ -192,7 +200,7 @@ TEST(Kernel, GradientAndCurvatureAreThoseOfTheResidualsForEveryModelAndLoss) {
 }
 
 TEST(Kernel, FloatIsDoubleToItsPrecision) {
-  for (std::size_t model = 0; model < brdf::kModelNames.size(); ++model)
+  for (const std::size_t model : fitted())
     for (const Loss loss : {Loss::kLog, Loss::kCubeRoot}) {
       SCOPED_TRACE(std::string(brdf::kModelNames[model]) + (loss == Loss::kLog ? ", log" : ", cuberoot"));
       const auto data = points(7);
@@ -217,7 +225,7 @@ TEST(Kernel, FloatIsDoubleToItsPrecision) {
 TEST(Kernel, InstructionSetsAgree) {
   const auto all = all_kernels();
   if (all.size() == 1) GTEST_SKIP() << "this processor has the baseline's instruction set alone";
-  for (std::size_t model = 0; model < brdf::kModelNames.size(); ++model) {
+  for (const std::size_t model : fitted()) {
     const auto data = points(11);
     const auto doubles = arrays_of<double>(data, Loss::kLog);
     const auto floats = arrays_of<float>(data, Loss::kLog);
@@ -286,7 +294,7 @@ TEST(Kernel, PaddingContributesNothing) {
 TEST(Kernel, TableSumsAreThoseOfItsDefinition) {
   const auto data = points(5);
   const auto floats = arrays_of<float>(data, Loss::kLog);
-  for (std::size_t model = 0; model < brdf::kModelNames.size(); ++model) {
+  for (const std::size_t model : fitted()) {
     const brdf::AnyBrdf brdf = drawn(model, 5);
     const Channels plain = plain_channels(brdf);
     std::vector<float> weight(floats.padded(), 0.0f);
@@ -321,7 +329,7 @@ TEST(Kernel, TableSumsAreThoseOfItsDefinition) {
 // At the ends of every range the sums stay finite: a search visits them.
 TEST(Kernel, BoundsGiveFiniteSums) {
   const auto data = points(3);
-  for (std::size_t model = 0; model < brdf::kModelNames.size(); ++model) {
+  for (const std::size_t model : fitted()) {
     const auto rows = std::visit([](const auto& m) { return std::vector(m.kParameters.begin(), m.kParameters.end()); },
                                  drawn(model, 3));
     for (const bool high : {false, true})
