@@ -143,8 +143,11 @@ TYPED_TEST(MicrofacetDiffuseFitIn, IsItsFormula) {
                  tolerance = kIsFloat<TypeParam> ? 2e-6 : 1e-13;
     const auto angles = evaluate_row<Row, TypeParam, std::tuple_element_t<2, Row::Forms>>(
         {theta_i, theta_o, at.phi, 0.3, 0.4, 0.5, at.alpha});
-    const auto vectors = evaluate_row<Row, TypeParam>(
-        {p.sin_i, 0, p.cos_i, p.sin_o * p.cos_phi, p.sin_o * p.sin_phi, p.cos_o, 0.3, 0.4, 0.5, at.alpha});
+    // The light is turned out of the x-z plane, so that each component counts.
+    const double turn = 0.7, phi_v = turn + at.phi;
+    const auto vectors = evaluate_row<Row, TypeParam>({p.sin_i * std::cos(turn), p.sin_i * std::sin(turn), p.cos_i,
+                                                       p.sin_o * std::cos(phi_v), p.sin_o * std::sin(phi_v), p.cos_o,
+                                                       0.3, 0.4, 0.5, at.alpha});
     for (const auto& got : {angles, vectors}) {
       EXPECT_LE(relative_difference(got[0], f), tolerance);
       EXPECT_LE(relative_difference(got[2], f * 5 / 3), tolerance);
