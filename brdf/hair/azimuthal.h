@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "brdf/fresnel/dielectric.h"
+#include "brdf/hair/scaled_exp.h"
 
 // How a fibre scatters around itself, for light that hits it at an offset h from its axis (in radii, -1 to 1).
 // Lobes: p = 0 is R, 1 is TT, 2 is TRT, 3 stands for all longer paths together.
@@ -18,8 +19,8 @@ S trimmed_logistic_scale(const S& s) {
 }
 template <Scalar S>
 S trimmed_logistic(const S& distance, const S& s, const S& scale) {
-  const S e = exp(S(-distance / s));
-  return scale * e / squared(S(S(1) + e));
+  const S half = exp(S(S(-0.5) * distance / s)), ratio = half / S(S(1) + half * half);
+  return scale * ratio * ratio;
 }
 // Logistic distribution of width s > 0 cut to [-pi, pi], [1/rad]; its integral there is 1. Reads |x| and s; x is 0 at
 // the peak. Source  Chiang 2016 (D_p); the integral of the logistic over [-pi, pi] is tanh(pi / (2 s)).

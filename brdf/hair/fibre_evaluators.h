@@ -56,7 +56,7 @@ Inclination<S> inclination_at(const S& theta) {
 // Outputs f and f_cos.
 template <Scalar T, Scalar S>
 void write_scattering(const Rgb<T>& f_cos, const T& cos_i, S* out) {
-  const T scale = T(1) / larger(cos_i, constant<T>(kTiny<S>));
+  const T scale = T(1) / larger(cos_i, constant<T>(kHairLeastCosine));
   for (const T& x : {T(f_cos.r * scale), T(f_cos.g * scale), T(f_cos.b * scale), f_cos.r, f_cos.g, f_cos.b})
     *out++ = S(x);
 }

@@ -104,10 +104,10 @@ struct KajiyaKay {
            secondary * lobe(a.secondary, secondary_exponent) +
            transmission * S(lobe(a.versine, transmission_exponent) * T(b4 * b4 * constant<T>(kAround)));
   }
-  // S, [1/sr], without the cosine, which is held above kTiny.
+  // S, [1/sr], without the cosine, which is held above 1e-18.
   template <Scalar T>
   Rgb<S> eval(const Angles<T>& a) const {
-    return eval_cos(a) * T(T(1) / larger(a.cos_i, constant<T>(kTiny<T>)));
+    return eval_cos(a) * T(T(1) / larger(a.cos_i, constant<T>(1e-18)));
   }
 };
 

@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "brdf/hair/bessel.h"
+#include "brdf/hair/scaled_exp.h"
 
 // How a fibre scatters along itself. Inclinations theta are angles from the normal plane of the fibre, in
 // [-pi/2, pi/2]; a smooth fibre sends light from theta_o to theta_i = -theta_o.
@@ -41,7 +42,7 @@ S hair_mp_scale(const S& v) {
 // Reads versine_over_v = (1 - cos(theta_i + theta_o)) / v and cosines_over_v = cos(theta_i) cos(theta_o) / v.
 template <Scalar S>
 S hair_mp(const S& v, const S& versine_over_v, const S& cosines_over_v) {
-  return exp(S(-versine_over_v)) * bessel_i0_scaled(cosines_over_v) * hair_mp_scale(v);
+  return scaled_exp(S(bessel_i0_scaled(cosines_over_v) * hair_mp_scale(v)), versine_over_v);
 }
 template <Scalar S>
 S hair_mp(const S& v, const Inclination<S>& i, const Inclination<S>& o) {
@@ -55,7 +56,7 @@ S hair_mp(const S& v, const Inclination<S>& i, const Inclination<S>& o) {
 template <Scalar S>
 S hair_gauss(const S& beta, const S& theta_over_beta) {
   constexpr double kRoot = 0.39894228040143268;  // 1 / sqrt(2 pi)
-  return exp(S(S(-0.5) * theta_over_beta * theta_over_beta)) * constant<S>(kRoot) / beta;
+  return scaled_exp(S(constant<S>(kRoot) / beta), S(S(0.5) * theta_over_beta * theta_over_beta));
 }
 
 // An inclination drawn with density M(theta_i, o) cos(theta_i) from u, w in [0, 1): the direction on the sphere is
