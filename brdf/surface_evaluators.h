@@ -214,9 +214,25 @@ struct RoughnessFromNormalLength {
   }
 };
 
+// The same without the iteration.
+struct RoughnessNearNormalLength {
+  static constexpr std::string_view kName = "roughness_near_normal_length";
+  static constexpr std::string_view kText = "the same within 3.5 % of alpha, in one logarithm and one division";
+  static constexpr std::size_t kFeatures = 1;
+  static constexpr const auto& kOutputs = RoughnessFromNormalLength::kOutputs;
+  using Forms = RoughnessFromNormalLength::Forms;
+  template <Scalar S>
+  static void evaluate(const S* f, S* out) {
+    const S least = constant<S>(kTiny<S> * kTiny<S>), third = constant<S>(1.0 / 3);
+    const S near = alpha2_near_normal_deficit(smaller(larger(f[0], least), third));
+    out[1] = pick(greater(f[0], least), S(sqrt(near)), S(0));
+    out[0] = safe_sqrt(out[1]);
+  }
+};
+
 using SurfaceEvaluators =
     std::tuple<Surface<Lambert>, Surface<OrenNayar>, Surface<OrenNayar1994>, BurleyDiffuseRow, Surface<Disney2012>,
                Surface<Ggx>, GgxD, Surface<Callisto>, ProximaRow, SurfaceWithCosine<CallistoProxima>, DualNormal,
-               NormalLength, RoughnessFromNormalLength>;
+               NormalLength, RoughnessFromNormalLength, RoughnessNearNormalLength>;
 
 }  // namespace likeness::brdf

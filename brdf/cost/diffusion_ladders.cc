@@ -59,13 +59,13 @@ Family diffusion_profile_family() {
   family.text =
       "Reflectance profile of a half space that scatters isotropically (single-scattering albedo 0.95, no boundary), "
       "light "
-      "along the normal at one point. The reference is a random walk of 100 000 paths, with 0.5 % of noise near the "
+      "along the normal at one point. The reference is a random walk of 20 000 paths, with 0.5 % of noise near the "
       "point and "
       "several % far out, so that errors below that say nothing. The Gaussians were fitted to Burley's profile.";
   family.distribution = "distance logarithmic from 0.1 to 5 mean free paths";
   family.draw_names = {"r"};
   family.draw = [](Random& random, double* draw) { draw[0] = 0.1 * std::pow(50.0, random.uniform()); };
-  family.draws = 64;
+  family.draws = 24;
   family.negligible = 1e-3;
   family.energy_name = "energy";
   family.energy_weight = [](const double* d) { return d[0] * d[0]; };  // r dr, for draws even in ln r
@@ -80,11 +80,11 @@ Family diffusion_profile_family() {
                           .inputs = [](const double* d, Inputs& in) {
                             in.set("r", d[0]), in.set("alpha", kAlpha), in.set("walks", 100), in.set("seed", 5);
                           }});
-  family.rungs.push_back({.label = "random walk, 100 000 paths",
+  family.rungs.push_back({.label = "random walk, 20 000 paths",
                           .evaluator = "random_walk_profile",
                           .inputs =
                               [](const double* d, Inputs& in) {
-                                in.set("r", d[0]), in.set("alpha", kAlpha), in.set("walks", 1e5), in.set("seed", 1);
+                                in.set("r", d[0]), in.set("alpha", kAlpha), in.set("walks", 2e4), in.set("seed", 1);
                               },
                           .is_reference = true});
   return family;

@@ -52,7 +52,7 @@ Family hair_family() {
     draw[4] = random.uniform(0.1, 0.8);
     draw[5] = 0.01 * std::pow(300.0, random.uniform());
   };
-  family.draws = 4000;
+  family.draws = 2000;
   family.negligible = 1e-2;
   family.energy_name = "energy";
   family.energy_weight = [](const double*) { return 1.0; };  // the light is uniform over the sphere

@@ -33,15 +33,22 @@ Task task_of(const catalog::Entry& entry, const catalog::Loops<N>& loops, const 
   return {[=] { loops.from_inputs(tables, state->in.data(), state->out.data(), rows); }, rows};
 }
 
-// So many rows that one call takes at most the time of a reading.
-std::size_t rows_for(const Task& of_sixteen, double seconds, std::size_t available) {
-  of_sixteen.run();
+double seconds_of(const Task& task) {
   const auto start = std::chrono::steady_clock::now();
-  of_sixteen.run();
-  const double each = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() / 16;
-  const double fitting = seconds / std::max(each, 1e-12);
+  task.run();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+// So many rows that one call takes about the time of a reading: one, of a random walk; of cheap forms, the whole block.
+std::size_t rows_for(const catalog::Entry& entry, const Columns& columns, double seconds, std::size_t available) {
   const std::size_t most = std::min(kMostRows, available);
-  return fitting >= double(most) ? most : std::max<std::size_t>(16, std::size_t(fitting) / 16 * 16);
+  std::size_t rows = 1;
+  double took = seconds_of(task_of(entry, entry.in_float, columns.of_float, 1));
+  while (rows < most && took < seconds / 8) {
+    rows = std::min(most, rows * 8);
+    took = seconds_of(task_of(entry, entry.in_float, columns.of_float, rows));
+  }
+  return rows;
 }
 
 void find_dominated(FamilyResult& result) {
@@ -103,7 +110,7 @@ Study run_study(const Options& options, const std::function<void(const std::stri
         cells[std::size_t(p)].accuracy = accuracy_of(family, draws, values, reference);
       }
       const Columns& c = columns[f][i];
-      const std::size_t rows = rows_for(task_of(entry, entry.in_float, c.of_float, 16), options.seconds, result.draws);
+      const std::size_t rows = rows_for(entry, c, options.seconds, result.draws);
       tasks.push_back(task_of(entry, entry.in_double, c.of_double, rows));
       tasks.push_back(task_of(entry, entry.in_float, c.of_float, rows));
       tasks.push_back(task_of(entry, entry.in_batches, c.of_float, rows));

@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "brdf/cost/ladder.h"
+#include "brdf/normal_length.h"
 
 namespace likeness::cost {
 namespace {
@@ -147,6 +148,46 @@ Family fresnel_family() {
        .inputs = [](const double* d, Inputs& in) { in.set("cos_i", d[0]), in.set("eta", d[1]), in.set("k", d[2]); },
        .is_reference = true},
   };
+  return family;
+}
+
+Family normal_length_family() {
+  Family family;
+  family.name = "normal_length";
+  family.title = "Roughness from the length of an averaged normal";
+  family.text =
+      "The inverse of the mean normal length of GGX (Chan 2018): what a mip filter does once for each texel. It has no "
+      "closed "
+      "form; the exact one iterates from the cheap one.";
+  family.distribution = "lengths of alpha uniform in [0.01, 1]";
+  family.draw_names = {"length"};
+  family.draw = [](Random& random, double* draw) { draw[0] = brdf::normal_length(random.uniform(0.01, 1)); };
+  const auto set = [](const double* d, Inputs& in) { in.set("length", d[0]); };
+  family.rungs = {
+      {.label = "leading term", .evaluator = "roughness_near_normal_length", .inputs = set, .output = "alpha"},
+      {.label = "three steps of Newton's method",
+       .evaluator = "roughness_from_normal_length",
+       .inputs = set,
+       .output = "alpha",
+       .is_reference = true},
+  };
+  return family;
+}
+
+Family tonemap_family() {
+  Family family;
+  family.name = "tonemap";
+  family.title = "GT tonemapper";
+  family.text =
+      "The curve of Gran Turismo (Uchimura 2017) at its defaults. There is one form of it: a power for the toe and an "
+      "exponential for the shoulder, both computed and one kept.";
+  family.distribution = "luminance logarithmic in [1e-3, 30]";
+  family.draw_names = {"x"};
+  family.draw = [](Random& random, double* draw) { draw[0] = 1e-3 * std::pow(3e4, random.uniform()); };
+  family.rungs = {{.label = "exact",
+                   .evaluator = "gt_tonemap",
+                   .inputs = [](const double* d, Inputs& in) { in.set("x", d[0]); },
+                   .is_reference = true}};
   return family;
 }
 
