@@ -25,6 +25,7 @@ std::vector<S> row_in(const std::vector<S>& in) {
 template <class E, class T>
 std::vector<ceres::Jet<T, 1>> slopes(const std::vector<double>& in, std::size_t by) {
   std::vector<ceres::Jet<T, 1>> dual;
+  dual.reserve(in.size());
   for (const double x : in) dual.emplace_back(constant<T>(x));
   dual[by].v[0] = T(1);
   return row_in<E>(dual);

@@ -61,6 +61,7 @@ void fit_gaussians() {
   }
   const auto values = fit_values<kCount>(best.data());
   std::vector<std::pair<double, double>> terms;
+  terms.reserve(kCount);
   for (int i = 0; i < kCount; ++i) terms.emplace_back(values.variance[i], values.weight[i]);
   std::sort(terms.begin(), terms.end());
   std::printf("%d: %d of 40 starts end here; weights and variances\n", kCount, found);
