@@ -6,8 +6,8 @@
 #include <limits>
 #include <sstream>
 
-#include "render/page/html.h"
 #include "render/files/files.h"
+#include "render/page/html.h"
 
 namespace likeness::fit {
 

@@ -7,19 +7,19 @@
 #include <numbers>
 #include <string>
 
-#include "render/page/html.h"
 #include "fit/report/overview.h"
-#include "fit/slice/slice.h"
 #include "fit/report/spheres.h"
+#include "fit/slice/slice.h"
 #include "render/image/tone_curve.h"
+#include "render/page/html.h"
 #include "tests/fit/report_page.h"
 
 namespace likeness::fit {
 
-using page::escape;
 using page::base64;
-using page::number;
+using page::escape;
 using page::fixed;
+using page::number;
 namespace {
 
 using Lambert = brdf::Lambert<double>;
