@@ -77,6 +77,26 @@ TEST(HairLut, EveryLobeIsWithinFivePercentOfTheQuadrature) {
   EXPECT_LE(worst[4], 0.05);  // all together, at every azimuth: 2.3 %
 }
 
+// The whole fibre, tilt and longitudinal terms included, wherever the light is; the closed forms at the same points.
+TEST(HairLut, TheWholeFibreIsWithinFivePercentOfTheReference) {
+  Random random(8);
+  double worst = 0, off2 = 0, want2 = 0;
+  for (int i = 0; i < 600; ++i) {
+    const RealtimeFibre fibre{.beta_m = random.uniform(0.1, 1),
+                              .beta_n = random.uniform(0.1, 1),
+                              .sigma_a = random.uniform() < 0.3 ? 0 : random.uniform(0, 2),
+                              .tilt_deg = random.uniform(-8, 8)};
+    const double theta_o = random.uniform(-80, 80) * kHairDegree, phi = random.uniform(-7, 7);
+    const double theta_i = std::clamp(-theta_o + random.uniform(-0.6, 0.6), -1.5, 1.5);
+    const double want = exact_f_cos(fibre, theta_i, theta_o, phi, 1e-5);
+    worst = std::max(worst, std::abs(far_row<HairLutRow>(fibre, theta_i, theta_o, phi) / want - 1));
+    off2 += squared(far_row<HairClosedRow>(fibre, theta_i, theta_o, phi) - want);
+    want2 += want * want;
+  }
+  EXPECT_LE(worst, 0.05);                    // the demand
+  EXPECT_LE(std::sqrt(off2 / want2), 0.03);  // hair_closed: 1 to 1.7 % for each beta
+}
+
 TEST(HairLut, EnergyIsWithinTwoPercent) {
   double worst = 0;
   for (const double beta : {0.1, 0.35, 0.7, 1.0})
