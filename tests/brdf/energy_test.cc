@@ -98,5 +98,19 @@ TEST(CallistoEnergy, IsAsItsPageSays) {
   expect_albedos(model, {1.111, 2.161, 3.287, 4.183});
 }
 
+TEST(CallistoProximaEnergy, IsAsItsPageSays) {
+  CallistoProxima<double> model;
+  model.base_color = Rgb<double>(1);
+  expect_albedos(model, {0.994, 1.012, 1.091, 1.186});
+  model.roughness = 1;
+  expect_albedos(model, {0.842, 0.847, 0.889, 0.950});
+  model.roughness = 0.5;
+  model.diffuse_fresnel = 25;
+  expect_albedos(model, {1.073, 1.651, 2.070, 2.280});
+  model.diffuse_fresnel = 1;
+  model.retroreflection = 25;
+  expect_albedos(model, {1.073, 2.135, 3.274, 4.183});
+}
+
 }  // namespace
 }  // namespace likeness::brdf

@@ -57,26 +57,29 @@ TYPED_TEST(EveryModel, IsReciprocalIfItPromisesThat) {
   }
 }
 
-// The terminator reads the light's cosine only: without it the model is reciprocal, with it not. Numbers of its page.
+// The terminator reads the light's cosine only: without it the model is reciprocal.
 TEST(Callisto, IsReciprocalButForTheTerminator) {
-  const auto with = [](double terminator) {
-    return asymmetry([terminator](Random& random) {
-      auto model = random_model<Callisto<double>>(random, kRange);
-      model.smooth_terminator = terminator;
-      return model;
-    });
+  const Asymmetry found = asymmetry([](Random& random) {
+    auto model = random_model<Callisto<double>>(random, kRange);
+    model.smooth_terminator = 0;
+    return model;
+  });
+  EXPECT_LE(found.worst, 1e-14);  // as above
+}
+
+// The numbers of the pages. The mean of 20000 pairs is within 2 % of that of all.
+TEST(Asymmetry, IsAsThePagesSay) {
+  const auto with = []<class M>(M model, double terminator) {
+    model.smooth_terminator = terminator;
+    return asymmetry([&](Random&) { return model; }).mean;
   };
-  EXPECT_LE(with(0).worst, 1e-14);  // as above
-  const auto at_defaults = [](double terminator) {
-    return asymmetry([terminator](Random&) {
-      Callisto<double> model;
-      model.smooth_terminator = terminator;
-      return model;
-    });
-  };
-  EXPECT_NEAR(at_defaults(0.5).mean, 0.080, 2e-3);  // the mean of 20000: 1e-3
-  EXPECT_NEAR(at_defaults(1).mean, 0.197, 3e-3);
-  EXPECT_NEAR(at_defaults(-1).mean, 0.106, 3e-3);
+  EXPECT_NEAR(with(Callisto<double>{}, 0.5), 0.080, 2e-3);
+  EXPECT_NEAR(with(Callisto<double>{}, 1), 0.197, 3e-3);
+  EXPECT_NEAR(with(Callisto<double>{}, -1), 0.106, 3e-3);
+  EXPECT_NEAR(with(CallistoProxima<double>{}, 0), 0.077, 2e-3);
+  EXPECT_NEAR(with(CallistoProxima<double>{}, 1), 0.157, 3e-3);
+  EXPECT_NEAR(asymmetry([](Random&) { return Proxima<double>{Rgb<double>(1), 0.25}; }).mean, 0.080, 2e-3);
+  EXPECT_NEAR(asymmetry([](Random&) { return Proxima<double>{Rgb<double>(1), 1}; }).mean, 0.206, 5e-3);
 }
 
 // ---- the microfacets of a unit patch project onto exactly that patch.

@@ -9,7 +9,9 @@ namespace likeness::brdf {
 namespace {
 
 template <class M>
-class EveryModelSampled : public ::testing::Test {};
+class EveryModelSampled : public ::testing::Test {
+  static_assert(Sampled<M>, "a model of AnyBrdf states lobes(), sample() and pdf(), as brdf/sampling.h says");
+};
 TYPED_TEST_SUITE(EveryModelSampled, TypesOf<AnyBrdf>::Type, ModelNames);
 
 template <class S>
