@@ -101,16 +101,36 @@ struct MicrofacetDiffuseAzimuthLut {
 };
 
 // The fit, also times the cosine.
-struct MicrofacetDiffuseFitRow : Surface<MicrofacetDiffuseFit> {
+struct MicrofacetDiffuseFitRow {
+  using Model = MicrofacetDiffuseFit<double>;
+  static constexpr std::string_view kName = Model::kName;
+  static constexpr std::string_view kText = Model::kText;
   static constexpr std::array kOutputs{
       Output{.name = "f", .unit = "1/sr", .channels = 3, .text = "BRDF without the cosine, linear RGB"},
       Output{.name = "f_cos", .unit = "1/sr", .channels = 3, .text = "the same times cos_i, linear RGB"},
   };
+  static constexpr std::size_t kOfPair = 3;  // what it reads of a pair of directions
+  static constexpr std::size_t kFeatures = kOfPair + static_cast<std::size_t>(channel_count<Model>());
+
+  template <class Directions>
+  struct Lit {
+    static constexpr auto kInputs = joined(Directions::kInputs, Model::kParameters);
+    template <Scalar S>
+    static void prepare(const S* in, S* features) {
+      using M = MicrofacetDiffuseFit<S>;
+      const Geometry<S> g = Directions::template pair<S>(in);
+      features[0] = M::lit_cosine(g);
+      features[1] = M::side_of(g);
+      features[2] = M::squares_of(g);
+      for (std::size_t i = 0; i + kOfPair < kFeatures; ++i) features[kOfPair + i] = in[Directions::kInputs.size() + i];
+    }
+  };
+  using Forms = std::tuple<Lit<Vectors>, Lit<HalfAngles>, Lit<PolarAngles>>;
+
   template <Scalar S>
-  static void evaluate(const S* features, S* out) {
-    const auto model = model_from_channels<MicrofacetDiffuseFit, S>(features + kGeometryColumns);
-    const auto geometry = Geometry<S>::from_columns(features);
-    const Rgb<S> f = model.eval(geometry), f_cos = model.eval_cos(geometry);
+  static void evaluate(const S* x, S* out) {
+    const auto model = model_from_channels<MicrofacetDiffuseFit, S>(x + kOfPair);
+    const Rgb<S> f = model.eval_at(x[0], x[1], x[2]), f_cos = model.eval_cos_at(x[0], x[1], x[2]);
     const S all[]{f.r, f.g, f.b, f_cos.r, f_cos.g, f_cos.b};
     for (std::size_t i = 0; i < 6; ++i) out[i] = all[i];
   }

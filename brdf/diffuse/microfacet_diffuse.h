@@ -13,14 +13,16 @@
 //     f / rho = 1 / (pi cos_o cos_i) integral over normals h of max(0, o . h) max(0, i . h) D(h) dh     [1/sr]
 //
 // Source  Heitz 2014 (JCGT 3(2)), which states the integral; with G2 = 1 as in The Callisto Protocol (SIGGRAPH 2023,
-//         Advances), because a normal map does not know what it hides. It has no closed form; here it is done to rounding.
+//         Advances), because a normal map does not know what it hides. It has no closed form; here it is done to
+//         rounding.
 //
-// How     Slopes are divided by alpha and laid on the unit sphere, u = (V cos t, V sin t, m): then D is even, and a facet
-//         turns from o where u . (alpha sin_o, 0, cos_o) < 0, which is a great circle (docs/models/microfacet_diffuse.md).
-//         Along an azimuth t the integral from the pole to V is elementary, of moments() below. So three pieces are left:
-//         azimuths where neither circle is in the way, in closed form; and the arc of either circle that is the first one
-//         met from the pole, as an integral over that arc, whose integrand is analytic and never cancels. Gauss's rule
-//         takes it in a variable that pushes its nearest singularity to a distance of pi / 2.
+// How     Slopes are divided by alpha and laid on the unit sphere, u = (V cos t, V sin t, m): then D is even, and a
+//         facet turns from o where u . (alpha sin_o, 0, cos_o) < 0, which is a great circle
+//         (docs/models/microfacet_diffuse.md). Along an azimuth t the integral from the pole to V is elementary, of
+//         moments() below. So three pieces are left: azimuths where neither circle is in the way, in closed form; and
+//         the arc of either circle that is the first one met from the pole, as an integral over that arc, whose
+//         integrand is analytic and never cancels. Gauss's rule takes it in a variable that pushes its nearest
+//         singularity to a distance of pi / 2.
 // Error   double 1e-8, float 1e-5, for every alpha in [0, 1], angle up to 89.9 degrees, and azimuth.
 namespace likeness::brdf {
 
@@ -198,8 +200,9 @@ class MicrofacetSlopes {
   static S inverse_sinh(const S& x) { return log1p(S(x + x * x / (S(1) + sqrt(S(S(1) + x * x))))); }
 
   // The arc of a's circle on which it is met before b's, times 1 / cos_a. With tau the angle along it from its highest
-  // point, where it turns from a: u = (c cos tau, sin tau, s cos tau), c and s being the cosine and sine of a's stretched
-  // angle. It runs from the horizon, tau = -pi / 2, to where the circles cross, tan tau = c past / (cos_a sin_b sin phi).
+  // point, where it turns from a: u = (c cos tau, sin tau, s cos tau), c and s being the cosine and sine of a's
+  // stretched angle. It runs from the horizon, tau = -pi / 2, to where the circles cross, tan tau = c past / (cos_a
+  // sin_b sin phi).
   S arc(const S& cos_a, const S& sin_a, const S& past, const S& cos_b, const S& sin_b, const PolarPair<S>& p) const {
     const S length = sqrt(S(cos_a * cos_a + alpha2_ * sin_a * sin_a));
     const S c = cos_a / length, s = alpha_ * sin_a / length;
@@ -210,8 +213,8 @@ class MicrofacetSlopes {
     const S scale = pick(crossing, longer, S(1)), ratio = shorter / scale;
     const S hypotenuse = longer * sqrt(S(S(1) + ratio * ratio));
     const S end = pick(crossing, S(run / pick(crossing, S(hypotenuse + abs(rise)), S(1))), S(1));
-    // Both halves are taken from the horizon, with tan(half the angle from it) = k sinh y: the integrand's singularities,
-    // where w = 0, lie at tangents i k and i / k.
+    // Both halves are taken from the horizon, with tan(half the angle from it) = k sinh y: the integrand's
+    // singularities, where w = 0, lie at tangents i k and i / k.
     const S k = alpha_ / (beta_ * s + sqrt(S(beta2_ * s * s + alpha2_)));
     const S y_top = inverse_sinh(S(S(1) / k)), y_end = inverse_sinh(S(end / k));
     const auto ascending = greater(S(0), rise);
@@ -260,9 +263,9 @@ class MicrofacetSlopes {
   S alpha_, alpha2_, beta2_, beta_;
 };
 
-// f / rho and f cos_i / rho. Unbounded towards grazing angles, where nothing is hidden from anything: by 1 / (cos_o cos_i)
-// in f and by 1 / cos_o in f cos. Cosines below kTiny count as that, so both are finite; at or below the horizon both are
-// 0. alpha = 0 is Lambert, 1 / pi, exactly.
+// f / rho and f cos_i / rho. Unbounded towards grazing angles, where nothing is hidden from anything: by 1 / (cos_o
+// cos_i) in f and by 1 / cos_o in f cos. Cosines below kTiny count as that, so both are finite; at or below the horizon
+// both are 0. alpha = 0 is Lambert, 1 / pi, exactly.
 template <Scalar S>
 struct Reflected {
   S f, f_cos;  // [1/sr]
@@ -280,8 +283,8 @@ Reflected<S> microfacet_diffuse(const S& alpha, const PolarPair<S>& pair) {
           pick(above, pick(rough, f_cos, S(lambert * p.cos_i)), S(0))};
 }
 
-// The part of the light from all around that reaches a viewer, over rho: a facet gets the light of the half of the sphere
-// that it sees, (1 + h . n) / 2, and what it sends is counted by the area that it shows, so
+// The part of the light from all around that reaches a viewer, over rho: a facet gets the light of the half of the
+// sphere that it sees, (1 + h . n) / 2, and what it sends is counted by the area that it shows, so
 //
 //     albedo = integral of max(0, o . h) (1 + h . n) / 2 D(h) dh / cos_o
 //

@@ -227,7 +227,8 @@ void print_times() {
   }
 }
 
-// pi f cos_i / rho over the light's angle in the plane of the view: nine panels, alpha down and the view's angle across.
+// pi f cos_i / rho over the light's angle in the plane of the view: nine panels, alpha down and the view's angle
+// across.
 struct Curve {
   Form form;
   const char *label, *style;

@@ -18,8 +18,8 @@ struct Draw {
 
 // The n-th of a sequence that fills (alpha, direction, direction) evenly: alpha uniform in [0, 1], directions over the
 // hemisphere by solid angle, weighted by the cosine or not, and phi in [0, pi], since nothing depends on its sign.
-// Source  Roberts 2018, "The Unreasonable Effectiveness of Quasirandom Sequences": an additive recurrence by the powers of
-//         1 / g, where g^5 = g + 1.
+// Source  Roberts 2018, "The Unreasonable Effectiveness of Quasirandom Sequences": an additive recurrence by the powers
+//         of 1 / g, where g^5 = g + 1.
 inline Draw draw(int n, Directions directions) {
   constexpr double kG = 1.1673039782614187;
   const auto fraction = [&](int axis) {

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "brdf/diffuse/evaluators.h"
+#include "brdf/proxima.h"
 #include "tests/brdf/diffuse/draws.h"
 
 // The forms of microfacet_diffuse side by side, as pi f cos_i / rho in double.
@@ -29,9 +30,9 @@ inline double over_lambert_cos(Form form, double alpha, const PolarPair<double>&
       return pi * microfacet_diffuse(alpha, p).f_cos;
     case Form::kLambert:
       return p.cos_i;
-    case Form::kProxima: {  // errata.md: cos theta_k = -V . L, clamped
-      const double cos_k = std::clamp(-(p.sin_o * p.sin_i * p.cos_phi + p.cos_o * p.cos_i), 0.0, 1.0);
-      return p.cos_i + alpha * (0.19 - 0.55 * p.cos_i) * (1 - std::sqrt(cos_k));
+    case Form::kProxima: {
+      const Vec3<double> l(p.sin_i, 0, p.cos_i), v(p.sin_o * p.cos_phi, p.sin_o * p.sin_phi, p.cos_o);
+      return proxima_factor_cos(alpha, p.cos_i, proxima_turn(Geometry<double>(l, v)));
     }
     case Form::kLut:
       return pi * MicrofacetDiffuseLut::tables().eval(alpha, p).f_cos;

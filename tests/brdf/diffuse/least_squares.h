@@ -16,8 +16,8 @@ struct LeastSquares {
   double rms_of_best, rms_of_header;  // of both errors together, over the same draws
 };
 
-// The coefficients that leave the least sum of two mean squares: of fit / integral - 1, and of twice the albedo less that of
-// the integral, or less 1 where the integral's is above. Energy needs no constraint: the form has it.
+// The coefficients that leave the least sum of two mean squares: of fit / integral - 1, and of twice the albedo less
+// that of the integral, or less 1 where the integral's is above. Energy needs no constraint: the form has it.
 inline LeastSquares least_squares(int draws) {
   constexpr int kSize = 5;
   constexpr double kAlbedoWeight = 2;

@@ -154,7 +154,8 @@ TEST(MicrofacetDiffuse, HasNoJumpWhereItsFormulasChange) {
       }
 }
 
-// Series take over from closed forms at a bound that each node of the rule crosses somewhere: neighbours stay neighbours.
+// Series take over from closed forms at a bound that each node of the rule crosses somewhere: neighbours stay
+// neighbours.
 TEST(MicrofacetDiffuse, IsSmoothAlongEveryInput) {
   const auto expect_smooth = [](auto&& f, double low, double high) {
     const int steps = 4000;
