@@ -77,20 +77,27 @@ struct F82 {
                                                 .text = "reflectance at cos 1/7 over Schlick's there, linear RGB"},
                                       kCosine};
   static constexpr std::array kOutputs{Output{.name = "F", .channels = 3, .text = "reflectance"}};
-  static constexpr std::size_t kFeatures = 8;  // f0, tint, cos, 1 - cos
+  static constexpr std::size_t kFeatures = 9;  // f0, tint, F82Shape
   struct Form {
     static constexpr const auto& kInputs = F82::kInputs;
     template <Scalar S>
     static void prepare(const S* in, S* features) {
+      const S cosine = clamp01(in[6]);
+      const F82Shape<S> shape(cosine, S(S(1) - cosine));
       for (int i = 0; i < 6; ++i) features[i] = in[i];
-      features[6] = clamp01(in[6]);
-      features[7] = S(1) - features[6];
+      features[6] = shape.q;
+      features[7] = shape.rest;
+      features[8] = shape.rise;
     }
   };
   using Forms = std::tuple<Form>;
   template <Scalar S>
   static void evaluate(const S* f, S* out) {
-    for (int c = 0; c < 3; ++c) out[c] = f82(f[c], f[3 + c], f[6], f[7]);
+    F82Shape<S> shape;
+    shape.q = f[6];
+    shape.rest = f[7];
+    shape.rise = f[8];
+    for (int c = 0; c < 3; ++c) out[c] = f82(f[c], f[3 + c], shape);
   }
 };
 

@@ -37,13 +37,24 @@ S schlick_falloff(const S& f0, const S& falloff, const S& versine) {
 //             0.7, but 0.34 at 0.04: it is meant for metals).
 //             Summed as f0 (1 - q) + (1 - f0) (v^5 - (6/7)^5 q) + tint Schlick(1/7) q, so that tint 1 is Schlick.
 // Holds       F = f0 at the normal, 1 at grazing, tint Schlick(1/7) at cos = 1/7.
+//
+// What depends on the angle alone. The differences vanish at cos = 1/7: made in double, they survive rounding to float.
+template <Scalar T>
+struct F82Shape {
+  T q, rest, rise;  // the dip, 1 at cos = 1/7; 1 - q; v^5 - (6/7)^5 q, which is below 0 from cos = 1/7 to 6/7
+
+  F82Shape() = default;
+  F82Shape(const T& cos_i, const T& versine) {
+    const T v2 = versine * versine, v5 = v2 * v2 * versine;
+    q = cos_i * (v5 * versine) * constant<T>(823543.0 / 46656.0);  // 7 (7/6)^6
+    rest = T(1) - q;
+    rise = v5 * ((T(7) * cos_i - T(1)) * (T(1) - T(7) * versine) * constant<T>(1.0 / 6));
+  }
+};
 template <Scalar S, Scalar T>
-S f82(const S& f0, const S& tint, const T& cos_i, const T& versine) {
-  const T v2 = versine * versine, v5 = v2 * v2 * versine;
-  const T q = cos_i * (v5 * versine) * constant<T>(823543.0 / 46656.0);    // 7 (7/6)^6 cos v^6: 1 at cos = 1/7
-  const T rise = v5 * (T(1) - cos_i * versine * constant<T>(49.0 / 6.0));  // v^5 - (6/7)^5 q
-  const S at_edge = mix(f0, S(1), constant<T>(7776.0 / 16807.0));          // Schlick at cos = 1/7
-  return clamp01(S(f0 * (T(1) - q) + (S(1) - f0) * rise + tint * at_edge * q));
+S f82(const S& f0, const S& tint, const F82Shape<T>& shape) {
+  const S at_edge = mix(f0, S(1), constant<T>(7776.0 / 16807.0));  // Schlick at cos = 1/7
+  return clamp01(S(f0 * shape.rest + (S(1) - f0) * shape.rise + tint * at_edge * shape.q));
 }
 
 }  // namespace likeness::brdf

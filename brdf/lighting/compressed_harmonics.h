@@ -7,7 +7,7 @@ namespace likeness::brdf {
 // Radiance as spherical harmonics for storage: band 0 as it is (16 bits or a float), bands 1 and 2 as numbers in [0, 1]
 // relative to it, which 8 bits hold.
 //
-//     e_i = 1/2 + c_i / (2 bound_i c_0),   i = 1 to 8;   e_i = 1/2 where c_0 is not above 0
+//     e_i = 1/2 + c_i / (2 bound_i c_0),   i = 1 to 8;   e_i = 1/2 where c_0 is not above 1e-36
 //
 // The bounds hold for every radiance that is nowhere negative, because |c_i| / c_0 is a mean of |Y_i| / Y_0, and its
 // largest is that of one light: sqrt 3 for band 1; sqrt 15 / 2 for xy, yz, xz, x^2 - y^2; sqrt 5 for 3 z^2 - 1. What
@@ -23,7 +23,7 @@ struct CompressedSh {
 
   CompressedSh() = default;
   explicit CompressedSh(const Sh<S>& from) : l0(positive(from.c[0])) {
-    const auto usable = greater(l0, constant<S>(kTiny<S>));
+    const auto usable = greater(l0, constant<S>(1e-36));  // 1 / (2 l0) is a float
     const S per_l0 = S(0.5) / pick(usable, l0, S(1));
     for (std::size_t i = 0; i < 8; ++i)
       e[i] = pick(usable, clamp01(S(S(0.5) + from.c[i + 1] * per_l0 * constant<S>(1 / bound(i)))), S(0.5));

@@ -17,8 +17,8 @@ namespace likeness::brdf {
 // x       scene light [1], linear; y = f(x) is display light, before the display's own encoding
 // Source  Uchimura 2017, "HDR theory and practice" (CEDEC).
 // Holds   f is defined for every float: x below 0 and NaN are taken as 0, and x above 1e30 as 1e30, where f = P to
-//         rounding. f(0) = b if m > 0, f is continuous and below or at P. At l = 1 (S1 = P) the shoulder is the constant P.
-//         At the defaults f is monotone, and wherever rises() says so.
+//         rounding. f(0) = b if m > 0, f is continuous and below or at P. At l = 1 (S1 = P) the shoulder is the
+//         constant P. At the defaults f is monotone, and wherever rises() says so.
 // Does not  rise everywhere at steep contrasts: the published blend of toe and line dips if a is above 2.3 at c = 1.33,
 //         1.3 at c = 2, 1.0 at c = 3, less with a pedestal. Where the dip would go below 0 it is clamped.
 template <Scalar S>
@@ -59,8 +59,10 @@ struct GtTonemap {
 
     const S start = shoulder_start(), room = headroom();
     const auto in_shoulder = greater(x, start), has_shoulder = greater(room, constant<S>(kTiny<S>));
-    const S fall = exp(S(-contrast * positive(S(x - start)) / pick(has_shoulder, room, S(1))));
-    const S shoulder = pick(has_shoulder, S(max_brightness - room * fall), max_brightness);
+    // From below and from above: P - room would lose a small y beside a large P, S1 + room would miss P by a rounding.
+    const S z = contrast * positive(S(x - start)) / pick(has_shoulder, room, S(1));
+    const S low = start_value() - room * expm1(S(-z)), high = max_brightness - room * exp(S(-z));
+    const S shoulder = pick(has_shoulder, pick(greater(S(0.5), z), low, high), max_brightness);
     return pick(in_toe, toe, pick(in_shoulder, shoulder, S(m + contrast * (x - m))));
   }
 
@@ -75,9 +77,12 @@ struct GtTonemap {
 
     const S start = shoulder_start(), room = headroom();
     const auto has_shoulder = greater(room, constant<S>(kTiny<S>));
-    const S left = larger(below_p, constant<S>(0x1p-53) * max_brightness);
-    const S ratio = larger(S(pick(has_shoulder, room, S(1)) / left), S(1));
-    const S shoulder = start + pick(has_shoulder, S(room * log(ratio) / contrast), S(0));
+    // Again from below and from above.
+    const S room_or_1 = pick(has_shoulder, room, S(1)),
+            risen = smaller(S(positive(S(y - start_value())) / room_or_1), S(0.5));
+    const S ratio = larger(S(room_or_1 / larger(below_p, S(constant<S>(0x1p-53) * max_brightness))), S(1));
+    const S z = pick(greater(S(0.5), risen), S(-log1p(S(-risen))), S(log(ratio)));
+    const S shoulder = start + pick(has_shoulder, S(room * z / contrast), S(0));
     const auto above_line = greater(room, below_p);
     return pick(greater(y, pedestal),
                 pick(greater(m, y), S(m * t), pick(both(has_shoulder, above_line), shoulder, smaller(line, start))),
@@ -101,6 +106,7 @@ struct GtTonemap {
   }
 
  private:
+  S start_value() const { return linear_start + (max_brightness - linear_start) * linear_length; }  // S1
   // P - S1.
   S headroom() const { return positive(S((max_brightness - linear_start) * (S(1) - linear_length))); }
   S pedestal_share() const { return pedestal / pick(greater(linear_start, S(0)), linear_start, S(1)); }

@@ -42,18 +42,20 @@ struct SphericalGaussian {
 // a b, which is one Gaussian. Where two equal ones are opposite the product is constant: its axis is then a's.
 template <Scalar S>
 SphericalGaussian<S> operator*(const SphericalGaussian<S>& a, const SphericalGaussian<S>& b) {
-  const Vec3<S> sum = a.axis * a.sharpness + b.axis * b.sharpness;
+  // In units of the larger sharpness, so that neither tiny nor huge ones lose their squares.
+  const S unit = larger(larger(a.sharpness, b.sharpness), constant<S>(kTiny<S> * kTiny<S>));
+  const S in_a = a.sharpness / unit, in_b = b.sharpness / unit;
+  const Vec3<S> sum = a.axis * in_a + b.axis * in_b;
   const S length2 = dot(sum, sum);
-  const auto usable = greater(length2, constant<S>(kTiny<S> * kTiny<S>));
-  const S length = S(sqrt(pick(usable, length2, S(1)))), sharpness = pick(usable, length, S(0));
+  const auto usable = greater(length2, constant<S>(kTiny<S>));
+  const S length = S(sqrt(pick(usable, length2, S(1)))), share = pick(usable, length, S(0));
   SphericalGaussian<S> out;
   out.axis = {pick(usable, S(sum.x / length), a.axis.x), pick(usable, S(sum.y / length), a.axis.y),
               pick(usable, S(sum.z / length), a.axis.z)};
-  out.sharpness = sharpness;
+  out.sharpness = unit * share;
   // lambda_a + lambda_b - lambda_m, multiplied by its conjugate.
-  const S total = a.sharpness + b.sharpness + sharpness;
-  const S loss =
-      S(2) * a.sharpness * versine_between(a.axis, b.axis) * (b.sharpness / larger(total, constant<S>(kTiny<S>)));
+  const S total = larger(S(in_a + in_b + share), constant<S>(kTiny<S>));
+  const S loss = S(2) * a.sharpness * versine_between(a.axis, b.axis) * (in_b / total);
   out.amplitude = a.amplitude * b.amplitude * exp(S(-loss));
   return out;
 }

@@ -5,10 +5,10 @@
 namespace likeness::brdf {
 
 // Exposure zones: 17 of them, each one stop wide, after Adams's eleven. Middle grey is in the middle of its zone: by
-// default 0.18 is zone V, so that 0 to XVI are -5 to +11 EV; with grey_zone 8 the numbering is symmetric, and the zone
+// default 0.18 is zone V, so that 0 to XVI are -5 to +11 EV; with grey_zone 8 the numbering is symmetric: the zone
 // less 8 runs from -8 to +8.
 //
-// Source  "The Rendering of The Callisto Protocol", exposure zone system: 17 zones in place of 11 for high dynamic range.
+// Source  "The Rendering of The Callisto Protocol": 17 zones in place of 11, for high dynamic range.
 struct Zones {
   static constexpr int kCount = 17;
   static constexpr double kMiddleGrey = 0.18, kGreyZone = 5;

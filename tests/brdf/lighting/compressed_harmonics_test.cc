@@ -73,8 +73,16 @@ TYPED_TEST(Compressed, InEightBitsLosesLessThanOnePercentOfBandZero) {
   EXPECT_GE(worst, 0.01) << "nothing was rounded: the test has lost its point";
 }
 
+TYPED_TEST(Compressed, HoldsFaintLightAsItHoldsStrong) {
+  for (const double power : {1e-33, 1e-20, 1e20}) {
+    const CompressedSh<TypeParam> c(light_from<TypeParam>({0.6, 0, 0.8}, power));
+    EXPECT_NEAR(first(c.e[2]), 0.5 + 0.3, 2 * this->kTolerance) << power;
+    EXPECT_NEAR(first(c.e[1]), 0.5 + 0.4, 2 * this->kTolerance) << power;
+  }
+}
+
 TYPED_TEST(Compressed, LeavesAmbientLightAmbient) {
-  for (const double c0 : {1e-6, 1.0, 1e4}) {
+  for (const double c0 : {1e-30, 1e-6, 1.0, 1e4}) {
     Sh<TypeParam> ambient;
     ambient.c[0] = constant<TypeParam>(c0);
     const Sh<TypeParam> back = CompressedSh<TypeParam>(ambient).rounded_to_levels().expanded();

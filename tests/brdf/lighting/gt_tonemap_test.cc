@@ -126,6 +126,15 @@ TYPED_TEST(Tonemapper, WithoutAShoulderEndsInACorner) {  // S1 = P, where the pu
     EXPECT_NEAR(this->y(x, {.l = 1 - 1e-7}), this->y(x, k), 2e-7) << x;
 }
 
+TYPED_TEST(Tonemapper, KeepsTheDigitsOfASmallValueBesideALargeP) {  // P - (P - S1) exp(...) would lose them
+  const Curve k{.P = 100, .m = 1e-6, .l = 0};
+  for (const double x : {1e-5, 1e-3, 0.1, 1.0}) {
+    const long double m = 1e-6L, want = m - (100 - m) * std::expm1(-(x - m) / (100 - m));
+    EXPECT_NEAR(this->y(x, k) / double(want), 1, kIsFloat<TypeParam> ? 1e-6 : 1e-14) << x;
+    EXPECT_NEAR(this->x(double(want), k) / x, 1, kIsFloat<TypeParam> ? 1e-6 : 1e-14) << x;
+  }
+}
+
 TYPED_TEST(Tonemapper, SaysWhichPartOfTheCurveItIs) {
   for (const auto& [x, part] : std::vector<std::pair<double, int>>{
            {-1, 0}, {0, 0}, {0.2199, 0}, {0.2201, 1}, {0.5319, 1}, {0.5321, 2}, {1e9, 2}})

@@ -109,6 +109,15 @@ TYPED_TEST(Gaussian, OfNoSharpnessIsNeutral) {
   EXPECT_EQ(first((flat * flat).sharpness), 0);
 }
 
+TYPED_TEST(Gaussian, TimesAnotherKeepsTinyAndHugeSharpnesses) {  // their squares are no floats
+  for (const double sharpness : {1e-35, 1e-20, 1e25}) {
+    const auto product = this->lobe({1, 0, 0}, sharpness) * this->lobe({0, 0, 1}, sharpness);
+    EXPECT_NEAR(first(product.sharpness) / (sharpness * std::sqrt(2.0)), 1, 8 * this->kEpsilon) << sharpness;
+    EXPECT_NEAR(first(product.axis.x), std::sqrt(0.5), 4 * this->kEpsilon) << sharpness;
+    EXPECT_TRUE(std::isfinite(first(product.amplitude))) << sharpness;
+  }
+}
+
 TYPED_TEST(Gaussian, HasItsInnerProduct) {
   for (const double la : {0.0, 0.3, 3.0})
     for (const double lb : {0.0, 1.0, 5.0})
