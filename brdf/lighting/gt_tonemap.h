@@ -55,7 +55,8 @@ struct GtTonemap {
     const S& m = linear_start;
     const auto in_toe = greater(m, x);
     const S t = pick(in_toe, S(x / pick(in_toe, m, S(1))), S(1));
-    const S toe = positive(S(pedestal + m * over_pedestal(t, power(t, black), contrast, pedestal_share())));
+    const S w = t * t * (S(3) - S(2) * t), line = m + contrast * (x - m);
+    const S toe = positive(S((S(1) - w) * (m * power(t, black) + pedestal) + w * line));
 
     const S start = shoulder_start(), room = headroom();
     const auto in_shoulder = greater(x, start), has_shoulder = greater(room, constant<S>(kTiny<S>));
@@ -63,7 +64,7 @@ struct GtTonemap {
     const S z = contrast * positive(S(x - start)) / pick(has_shoulder, room, S(1));
     const S low = start_value() - room * expm1(S(-z)), high = max_brightness - room * exp(S(-z));
     const S shoulder = pick(has_shoulder, pick(greater(S(0.5), z), low, high), max_brightness);
-    return pick(in_toe, toe, pick(in_shoulder, shoulder, S(m + contrast * (x - m))));
+    return pick(in_toe, toe, pick(in_shoulder, shoulder, line));
   }
 
   // The x of a y, for curves that rise. y at or below b, and NaN, give 0; y at or above P (1 - 2^-53) gives the x of

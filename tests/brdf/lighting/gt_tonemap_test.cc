@@ -75,6 +75,8 @@ TYPED_TEST(Tonemapper, IsDefinedForEveryFloat) {
     // Without a toe the line itself begins at 0: f(0) = (1 - a) m + ... = 0.
     const double at_0 = k.m > 0 ? double(typename Arithmetic<TypeParam>::Number(k.b)) : 0;
     for (const double x : {nan, -nan, -inf, -1e30, -1.0, -1e-45, -0.0, 0.0}) EXPECT_EQ(this->y(x, k), at_0) << x;
+    EXPECT_EQ(this->y(0, {.m = 1e-45, .b = k.b}), double(typename Arithmetic<TypeParam>::Number(k.b)))
+        << "b / m is no float";
     for (const double x : {inf, 3e38, 1e31}) EXPECT_EQ(this->y(x, k), k.P) << x;
     for (const double x : {1e-45, 1e-38, 1e-30, 1e-7, k.m, 65504.0})
       EXPECT_TRUE(this->y(x, k) >= 0 && this->y(x, k) <= k.P) << x;
