@@ -54,7 +54,7 @@ TYPED_TEST(Tonemapper, MeetsItsFile) {
   if (read_reference("gt_tonemap.csv").empty()) GTEST_SKIP() << "no reference/gt_tonemap.csv";
   const double worst = worst_against_file<Tonemap, TypeParam>("gt_tonemap.csv", {});
   this->RecordProperty("worst", std::to_string(worst));
-  EXPECT_LE(worst, kIsFloat<TypeParam> ? 4e-6 : 4e-15);  // measured 1.2e-6 and 2.5e-15, both in batches
+  EXPECT_LE(worst, kIsFloat<TypeParam> ? 4e-6 : 4e-15);  // measured 1.2e-6 and 2.3e-15, both in batches
 }
 
 TYPED_TEST(Tonemapper, IsThePublishedCurve) {
