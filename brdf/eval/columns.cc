@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "brdf/eval/csv.h"
 #include "render/files/files.h"
@@ -91,10 +92,16 @@ std::string unknown(const Entry& entry, const Form& form, std::string_view kind,
          (kind == "column" ? "; to compare with: " + list_of(outputs) : "") + ")";
 }
 
-const Form& chosen_form(const Entry& entry, std::span<const std::string> given) {
+// The form that knows most of the names; of several the one that knows most of the header's, which come first.
+const Form& chosen_form(const Entry& entry, std::span<const std::string> given, std::size_t in_header) {
   const auto known = [&](const Form& form) {
-    return std::count_if(given.begin(), given.end(),
-                         [&](const std::string& name) { return input_named(form, name).channels > 0; });
+    std::pair<int, int> count{0, 0};
+    for (std::size_t i = 0; i < given.size(); ++i) {
+      const bool is_known = input_named(form, given[i]).channels > 0;
+      count.first += is_known;
+      count.second += is_known && i < in_header;
+    }
+    return count;
   };
   return *std::max_element(entry.forms.begin(), entry.forms.end(),
                            [&](const Form& a, const Form& b) { return known(a) < known(b); });
@@ -241,7 +248,7 @@ Columns columns_of(const Entry& entry, std::span<const std::string_view> header,
                    std::span<const Assignment> assignments, const std::string& place) {
   const std::vector<std::string> given = given_names(header, assignments);
   Columns columns;
-  columns.form = &chosen_form(entry, given);
+  columns.form = &chosen_form(entry, given, header.size());
   columns.count = header.size();
   columns.fixed = defaults_of(*columns.form);
   std::vector<bool> set(columns.form->count, false);
@@ -281,7 +288,7 @@ Columns columns_of(const Entry& entry, std::span<const std::string_view> header,
 
 std::string table_of_defaults(const Entry& entry, std::span<const Assignment> assignments) {
   const std::vector<std::string> given = given_names({}, assignments);
-  const Form& form = chosen_form(entry, given);
+  const Form& form = chosen_form(entry, given, 0);
   std::vector<double> inputs = defaults_of(form);
   std::vector<bool> set(form.count, false);
   assign(entry, form, assignments, given, inputs, set);

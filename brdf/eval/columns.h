@@ -45,8 +45,9 @@ struct Columns {
   std::string defaults;                 // the inputs that neither gives, as "phi_d = 1.57, metallic = 0"
 };
 
-// Which column is which. The form is the one that knows most of the names, and of several the first. `place` begins the
-// messages: "table.csv:1". Throws files::InputError for a column, files::UsageError for an assignment.
+// Which column is which. The form is the one that knows most of the names; of several the one that knows most of the
+// header's, and of these the first. `place` begins the messages: "table.csv:1". Throws files::InputError for a column,
+// files::UsageError for an assignment.
 Columns columns_of(const catalog::Entry& entry, std::span<const std::string_view> header,
                    std::span<const Assignment> assignments, const std::string& place);
 

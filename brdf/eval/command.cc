@@ -180,7 +180,7 @@ void add_eval(CLI::App& program, int& exit_code) {
   app->add_flag("--stress", o->stress,
                 "Evaluate MODEL, or all, at random inputs and at edges, in float and in batches against double")
       ->group(stress);
-  app->add_option("--rows", o->rows, "Rows a model (default 1e8); slow models get a tenth, a hundredth, ... of it")
+  app->add_option("--rows", o->rows, "Rows a model (default 1e8); slow models get as many as 2 us of CPU a row allow")
       ->group(stress);
   app->add_option("--seed", o->seed, "Of the random inputs (default 1)")->group(stress);
   app->add_flag("--markdown", o->markdown, "Print the result as a Markdown table; --out writes it as CSV")

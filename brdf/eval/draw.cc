@@ -77,12 +77,10 @@ Vector next_direction(const Vector& before, Random& random, unsigned edges) {
 
 }  // namespace
 
-Random::Random(std::uint64_t seed, std::string_view name, std::uint64_t block) : state_(seed) {
-  std::uint64_t hash = 0xcbf29ce484222325u;  // FNV-1a: each evaluator has rows of its own
+std::uint64_t stream_of(std::uint64_t seed, std::string_view name) {
+  std::uint64_t hash = 0xcbf29ce484222325u;  // FNV-1a
   for (const char c : name) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
-  state_ = next() ^ hash;
-  state_ = next() + block * 0xd1342543de82ef95u;
-  state_ = next();
+  return Random(seed, hash).next();
 }
 
 Draw::Draw(std::span<const brdf::Parameter> inputs) {

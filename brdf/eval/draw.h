@@ -10,10 +10,11 @@
 // Random inputs of an evaluator, with the edges of their ranges over-weighted.
 namespace likeness::eval {
 
-// SplitMix64 (Steele, Lea and Flood 2014): a stream for each block of rows, the same on every machine.
+// SplitMix64 (Steele, Lea and Flood 2014): a stream for each row of each evaluator, the same on every machine.
 class Random {
  public:
-  Random(std::uint64_t seed, std::string_view name, std::uint64_t block);
+  // `stream` is that of stream_of(); rows of one stream are independent of one another.
+  Random(std::uint64_t stream, std::uint64_t row) : state_(stream + row * 0xd1342543de82ef95u) { state_ = next(); }
   std::uint64_t next() {
     std::uint64_t z = state_ += 0x9e3779b97f4a7c15u;
     z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
@@ -28,6 +29,9 @@ class Random {
  private:
   std::uint64_t state_;
 };
+
+// Each evaluator has rows of its own.
+std::uint64_t stream_of(std::uint64_t seed, std::string_view name);
 
 // Draws rows of inputs as floats, each within its range also after rounding.
 //

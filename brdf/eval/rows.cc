@@ -53,6 +53,13 @@ void Outcome::add(const Outcome& next) {
   colored += next.colored;
 }
 
+std::optional<std::string_view> take_header(std::string_view& text, std::size_t& line) {
+  if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
+  for (; !text.empty(); ++line)
+    if (const std::string_view header = take_line(text); !trimmed(header).empty()) return header;
+  return std::nullopt;
+}
+
 // Rows that are read and not yet evaluated.
 struct Rows::Chunk {
   std::size_t rows = 0;

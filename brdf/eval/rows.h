@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -35,6 +36,10 @@ struct Outcome {
   // Adds the outcome of the rows that follow; its text is left to it.
   void add(const Outcome& next);
 };
+
+// The first line of a table that is not blank; `text` goes on after it, and `line` is its number. A byte order mark is
+// left out. Nothing if there is no such line.
+std::optional<std::string_view> take_header(std::string_view& text, std::size_t& line);
 
 // A header that is understood: evaluates rows, from any number of threads.
 class Rows {

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <bit>
-#include <chrono>
 #include <cmath>
-#include <limits>
+#include <ctime>
+#include <utility>
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_reduce.h>
@@ -22,8 +22,10 @@ constexpr std::size_t kBlock = 2048;                // rows
 constexpr double kHalfUlp = 0x1p-24;                // of a float, relative
 constexpr std::size_t kFirstBin = (1023 - 64) * 8;  // 2^-64
 
-double seconds_since(std::chrono::steady_clock::time_point began) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+double cpu_seconds() {  // of this thread: what else the machine does is not the evaluator's
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
 std::size_t bin_of(double error) {
@@ -62,66 +64,82 @@ struct Results {
   }
 };
 
+// What became of some rows, and what they cost [CPU s].
+struct Part {
+  std::vector<Swept> precisions;
+  double seconds = 0;
+
+  void add(const Part& next) {
+    for (std::size_t i = 0; i < precisions.size(); ++i) precisions[i].add(next.precisions[i]);
+    seconds += next.seconds;
+  }
+};
+
 class Sweep {
  public:
-  Sweep(const Entry& entry, const StressOptions& options, std::uint64_t rows)
+  Sweep(const Entry& entry, const StressOptions& options)
       : entry_(entry),
         options_(options),
-        rows_(rows),
+        stream_(stream_of(options.seed, entry.name)),
         draw_(entry.forms.front().inputs),
         results_(entry),
         tables_(entry.tables()) {}
 
-  std::vector<Swept> blocks(std::uint64_t first, std::uint64_t last) const {
+  // Rows `first` to `last`, on all cores.
+  Part rows(std::uint64_t first, std::uint64_t last) const {
+    const std::uint64_t size = std::clamp<std::uint64_t>((last - first) / 16, 1, kBlock);
+    const std::uint64_t blocks = (last - first + size - 1) / size;
     return tbb::parallel_deterministic_reduce(
-        tbb::blocked_range<std::uint64_t>(first, last), none(),
-        [&](const tbb::blocked_range<std::uint64_t>& range, std::vector<Swept> all) {
-          for (std::uint64_t block = range.begin(); block < range.end(); ++block) add(all, one_block(block));
+        tbb::blocked_range<std::uint64_t>(0, blocks), none(),
+        [&](const tbb::blocked_range<std::uint64_t>& range, Part all) {
+          for (std::uint64_t i = range.begin(); i < range.end(); ++i)
+            all.add(one_block(first + i * size, std::min(last, first + (i + 1) * size)));
           return all;
         },
-        [](std::vector<Swept> a, const std::vector<Swept>& b) {
-          add(a, b);
+        [](Part a, const Part& b) {
+          a.add(b);
           return a;
         });
   }
 
-  std::vector<Swept> none() const {
-    std::vector<Swept> all(1);
-    all[0].precision = "double";
-    if (options_.in_float) all.emplace_back().precision = "float";
-    if (options_.in_batches && !entry_.one_by_one) all.emplace_back().precision = "batch";
-    return all;
+  Part none() const {
+    Part part;
+    part.precisions.emplace_back().precision = "double";
+    if (options_.in_float) part.precisions.emplace_back().precision = "float";
+    if (options_.in_batches && !entry_.one_by_one) part.precisions.emplace_back().precision = "batch";
+    return part;
   }
 
-  static void add(std::vector<Swept>& all, const std::vector<Swept>& next) {
-    for (std::size_t i = 0; i < all.size(); ++i) all[i].add(next[i]);
-  }
-
-  std::vector<Swept> one_block(std::uint64_t block) const {
+  Part one_block(std::uint64_t first, std::uint64_t last) const {
     if (files::interrupted()) throw files::Interrupted{};
+    const double block_began = cpu_seconds();
     const std::size_t inputs = draw_.count(), outputs = entry_.output_count;
-    const std::size_t rows = static_cast<std::size_t>(std::min<std::uint64_t>(kBlock, rows_ - block * kBlock));
-    Columns<float> single(inputs, outputs, kBlock);
-    Columns<double> exact(inputs, outputs, kBlock);
-    Random random(options_.seed, entry_.name, block);
-    for (std::size_t row = 0; row < rows; ++row) draw_.row(random, single.to.data(), row);
+    const auto rows = static_cast<std::size_t>(last - first);
+    Columns<float> single(inputs, outputs, rows);
+    Columns<double> exact(inputs, outputs, rows);
+    for (std::size_t row = 0; row < rows; ++row) {
+      Random random(stream_, first + row);
+      draw_.row(random, single.to.data(), row);
+    }
     for (std::size_t i = 0; i < inputs; ++i)
       for (std::size_t row = 0; row < rows; ++row) exact.to[i][row] = double{single.to[i][row]};
 
-    std::vector<Swept> all = none();
-    auto began = std::chrono::steady_clock::now();
+    Part part = none();
+    double began = cpu_seconds();
     entry_.in_double.from_inputs(tables_, exact.in.data(), exact.out.data(), rows);
-    all[0].seconds = seconds_since(began);
-    check(all[0], single, exact.out, rows);
-    for (std::size_t k = 1; k < all.size(); ++k) {
-      const auto& loops = all[k].precision == "batch" ? entry_.in_batches : entry_.in_float;
-      began = std::chrono::steady_clock::now();
+    part.precisions[0].seconds = cpu_seconds() - began;
+    check(part.precisions[0], single, exact.out, rows);
+    for (std::size_t k = 1; k < part.precisions.size(); ++k) {
+      Swept& swept = part.precisions[k];
+      const auto& loops = swept.precision == "batch" ? entry_.in_batches : entry_.in_float;
+      began = cpu_seconds();
       loops.from_inputs(tables_, single.in.data(), single.out.data(), rows);
-      all[k].seconds = seconds_since(began);
-      check(all[k], single, single.out, rows);
-      compare(all[k], single, exact, rows);
+      swept.seconds = cpu_seconds() - began;
+      check(swept, single, single.out, rows);
+      compare(swept, single, exact, rows);
     }
-    return all;
+    part.seconds = cpu_seconds() - block_began;
+    return part;
   }
 
  private:
@@ -205,32 +223,11 @@ class Sweep {
 
   const Entry& entry_;
   const StressOptions& options_;
-  std::uint64_t rows_;
+  std::uint64_t stream_;
   Draw draw_;
   Results results_;
   const void* tables_;
 };
-
-// CPU s that a row takes in all precisions together, drawing and comparing included.
-double cost_of(const Entry& entry, const StressOptions& options) {
-  constexpr std::uint64_t kFew = 8, kSome = 512;
-  double seconds = 0;
-  for (const std::uint64_t rows : {kFew, kSome}) {
-    const Sweep pilot(entry, options, rows);
-    pilot.one_block(0);  // warm
-    const auto began = std::chrono::steady_clock::now();
-    pilot.one_block(0);
-    seconds = seconds_since(began) / static_cast<double>(rows);
-    if (seconds > 100 * kCostLimit) break;
-  }
-  return seconds;
-}
-
-// How many rows an evaluator of that cost gets.
-std::uint64_t affordable(std::uint64_t rows, double seconds_a_row) {
-  for (double limit = kCostLimit; seconds_a_row > limit && rows > kBlock; limit *= 10) rows /= 10;
-  return std::max<std::uint64_t>(rows, 1);
-}
 
 }  // namespace
 
@@ -263,18 +260,22 @@ bool Stressed::sound() const {
 }
 
 Stressed stress(const Entry& entry, const StressOptions& options, void (*tell)(std::string_view, double)) {
-  Stressed result{&entry, options.rows, {}};
-  result.rows = affordable(options.rows, cost_of(entry, options));
-  const Sweep sweep(entry, options, result.rows);
-  result.precisions = sweep.none();
-  const std::uint64_t blocks = (result.rows + kBlock - 1) / kBlock;
-  constexpr std::uint64_t kWave = 8;  // blocks between two looks at the clock
-  for (std::uint64_t first = 0; first < blocks; first += kWave) {
-    Sweep::add(result.precisions, sweep.blocks(first, std::min(blocks, first + kWave)));
+  const Sweep sweep(entry, options);
+  Part all = sweep.none();
+  const double budget = kCostLimit * static_cast<double>(options.rows);
+  constexpr double kWave = 0.3;  // [CPU s] between two looks at the clock
+  std::uint64_t done = 0, wave = 2;
+  while (done < options.rows && all.seconds < budget) {
+    const Part part = sweep.rows(done, std::min(options.rows, done + wave));
+    done = std::min(options.rows, done + wave);
+    all.add(part);
+    const double cost = all.seconds / static_cast<double>(done);
+    wave =
+        static_cast<std::uint64_t>(std::clamp(std::min(kWave, budget - all.seconds) / cost, 1.0, 4.0 * double(done)));
     if (tell != nullptr)
-      tell(entry.name, static_cast<double>(std::min(blocks, first + kWave)) / static_cast<double>(blocks));
+      tell(entry.name, std::max(static_cast<double>(done) / static_cast<double>(options.rows), all.seconds / budget));
   }
-  return result;
+  return {&entry, done, std::move(all.precisions)};
 }
 
 }  // namespace likeness::eval

@@ -18,11 +18,11 @@ inline constexpr double kErrorDemand = 2e-5;  // rows above it are counted
 inline constexpr double kLeastUlps = 16;      // errors below that many units of the inputs are not told apart
 
 struct StressOptions {
-  std::uint64_t rows = 100'000'000;  // of an evaluator that takes at most kCostLimit a row
+  std::uint64_t rows = 100'000'000;  // fewer if they take more than kCostLimit each
   std::uint64_t seed = 1;
   bool in_float = true, in_batches = true;
 };
-inline constexpr double kCostLimit = 2e-6;  // [CPU s a row]; ten times that gets a tenth of the rows, and so on
+inline constexpr double kCostLimit = 2e-6;  // [CPU s], all precisions, drawing and comparing included
 
 // A row worth keeping.
 struct Found {
@@ -43,7 +43,7 @@ struct Swept {
   // ulp of the result. Near 1 nobody can do better with these inputs. kLeastUlps where nothing exceeds that.
   Found ulps;
   std::array<std::uint64_t, 1024> histogram{};  // of the errors, eight bins an octave
-  double seconds = 0;                           // in the loop itself, all threads together
+  double seconds = 0;                           // [CPU s] in the loop itself, all threads together
 
   // The error that this share of the rows does not exceed, to an eighth of an octave.
   double quantile(double share) const;
@@ -58,7 +58,8 @@ struct Stressed {
   bool sound() const;  // nothing was NaN, infinite or negative
 };
 
-// Evaluates the rows on all cores; the result depends on entry, rows and seed only. `tell` hears how far it is. Throws
+// Evaluates rows on all cores, in order, until all are done or as much time is used up as all may take. Which rows these
+// are depends on entry and seed only, how many of a slow evaluator on the machine. `tell` hears how far it is. Throws
 // files::Interrupted.
 Stressed stress(const catalog::Entry& entry, const StressOptions& options, void (*tell)(std::string_view, double));
 

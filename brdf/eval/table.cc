@@ -13,6 +13,7 @@
 
 #include <unistd.h>
 
+#include <tbb/global_control.h>
 #include <tbb/info.h>
 #include <tbb/parallel_pipeline.h>
 #include <tbb/task_arena.h>
@@ -81,24 +82,21 @@ void summarize(const Rows& rows, const Outcome& all, const TableOptions& options
               "): " + files::number_text(worst.got) + " against " + files::number_text(worst.want);
     if (options.tolerance < std::numeric_limits<double>::infinity())
       text += std::string("; ") + (worst.difference <= options.tolerance ? "within" : "ABOVE") + " the tolerance " +
-              files::number_text(options.tolerance);
+              short_number(options.tolerance);
     say(text);
   }
 }
 
-// The header: the first line that is not blank, taken from the first block.
+// The header, taken from the first block.
 Rows header_of(const catalog::Entry& entry, const TableOptions& options, const std::string& name, Block& block) {
   std::string_view text = block.text;
-  if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);  // a byte order mark
-  while (!text.empty()) {
-    const std::string_view line = take_line(text);
-    const std::size_t number = block.first_line++;
-    if (trimmed(line).empty()) continue;
-    Rows rows(entry, line, options.assignments, options.precision, name, number);
-    block.text = std::string(text);
-    return rows;
-  }
-  throw files::InputError(name + ": is empty; expected a header that names inputs of " + std::string(entry.name));
+  const auto header = take_header(text, block.first_line);
+  if (!header)
+    throw files::InputError(name + ": is empty; expected a header that names inputs of " + std::string(entry.name));
+  Rows rows(entry, *header, options.assignments, options.precision, name, block.first_line);
+  block.text = std::string(text);
+  ++block.first_line;
+  return rows;
 }
 
 // A block on its way from the reader to the sink.
@@ -151,6 +149,7 @@ Outcome run_blocks(const Rows& rows, Block& first, BlockReader& reader, Sink& si
                   reader.size() == 0 ? 0 : static_cast<double>(work->bytes_read) / static_cast<double>(reader.size()));
   };
   const int cores = threads > 0 ? threads : tbb::info::default_concurrency();
+  const tbb::global_control as_many(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(cores));
   tbb::task_arena arena(cores);
   arena.execute([&] {
     tbb::parallel_pipeline(

@@ -97,6 +97,11 @@ WholeFile::WholeFile(std::filesystem::path file) : file_(std::move(file)) {
   if (!folder.empty()) std::filesystem::create_directories(folder, failed);
   if (failed) cannot_write(file_, "its folder: " + failed.message());
   if (std::filesystem::is_directory(file_, failed)) cannot_write(file_, "it is a folder");
+  if (std::filesystem::exists(file_, failed) && !std::filesystem::is_regular_file(file_, failed)) {
+    descriptor_ = ::open(file_.c_str(), O_WRONLY | O_CLOEXEC);
+    if (descriptor_ < 0) cannot_write(file_, cause());
+    return;
+  }
 
   std::string pattern = (folder / ("." + file_.filename().string() + ".XXXXXX")).string();
   descriptor_ = ::mkostemp(pattern.data(), O_CLOEXEC);
@@ -123,6 +128,7 @@ void WholeFile::append(std::string_view bytes) {
 }
 
 void WholeFile::commit() {
+  if (temporary_.empty()) return;
   if (::rename(temporary_.c_str(), file_.c_str()) != 0) cannot_write(file_, cause());
   temporary_.clear();
 }

@@ -28,7 +28,8 @@ std::string read_whole(const std::filesystem::path& file, std::size_t limit);
 void write_whole(const std::filesystem::path& file, std::string_view bytes);
 
 // The same piece by piece, for what does not fit into memory: nothing is at `file` before commit(), and nothing of it is
-// left if that is never reached. All but the destructor throw as write_whole does.
+// left if that is never reached. What is no file, /dev/stdout or a named pipe, is not replaced but written to. All but
+// the destructor throw as write_whole does.
 class WholeFile {
  public:
   explicit WholeFile(std::filesystem::path file);
@@ -41,7 +42,7 @@ class WholeFile {
 
  private:
   std::filesystem::path file_;
-  std::string temporary_;  // its name; empty once it has become `file_`
+  std::string temporary_;  // its name; empty once it has become `file_`, and for what is no file
   int descriptor_ = -1;
 };
 

@@ -1,15 +1,20 @@
 #include <gtest/gtest.h>
 
-#include <fstream>
-#include <iterator>
 #include <set>
 
 #include "tests/brdf/evaluate.h"
-#include "tests/brdf/model_table.h"
 
-// The parameter tables, and the pages made from them.
+// The parameter tables of the models that a file or a fit can name.
 namespace likeness::brdf {
 namespace {
+
+// Calls visit(M{}) for every alternative of AnyBrdf.
+template <class F>
+void for_each_model(F&& visit) {
+  [&]<std::size_t... I>(std::index_sequence<I...>) {
+    (visit(std::variant_alternative_t<I, AnyBrdf>{}), ...);
+  }(std::make_index_sequence<std::variant_size_v<AnyBrdf>>{});
+}
 
 TEST(Parameters, NamesAreUniqueAndSnakeCase) {
   for_each_model([]<class M>(const M&) {
@@ -100,20 +105,6 @@ TEST(Parameters, EveryModelIsFoundByItsName) {
   AnyBrdf unchanged = Ggx<double>{};
   EXPECT_FALSE(model_of_name("phong", unchanged));
   EXPECT_TRUE(std::holds_alternative<Ggx<double>>(unchanged));
-}
-
-TEST(ModelPages, ParameterTablesAreThoseOfTheHeaders) {
-  for_each_model([]<class M>(const M&) {
-    const std::string path = LIKENESS_SOURCE_DIR "/docs/models/" + std::string(M::kName) + ".md";
-    std::ifstream in(path);
-    const std::string page{std::istreambuf_iterator<char>(in), {}};
-    const Span span = table_span(page, M::kName);
-    ASSERT_GT(span.first, 0u) << path << ": no line \"<!-- table: " << M::kName
-                              << " -->\" followed by \"<!-- end -->\"";
-    EXPECT_EQ(page.substr(span.first, span.count), markdown_table<M>())
-        << path << " is not what brdf/" << M::kName
-        << ".h says; rewrite it with: cmake --build BUILD --target docs_tables";
-  });
 }
 
 }  // namespace

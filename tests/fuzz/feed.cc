@@ -29,6 +29,7 @@ bool usable(const Rgb& f) { return f.r >= 0 && f.g >= 0 && f.b >= 0 && std::isfi
 }  // namespace
 
 bool feed(std::string_view format, std::string_view bytes) {
+  if (format == "table") return feed_table(bytes);
   std::unique_ptr<Material> material;
   try {
     material = parsed(format, bytes);

@@ -21,4 +21,9 @@ int main(int count, char** arguments) {
   files::write_whole(folder / "csv" / "small.csv", small_csv());
   files::write_whole(folder / "csv" / "radians.csv",
                      "theta_i,theta_o,phi,r,g,b\n0.5,0.5,3.1,1,2,3\n0.5,0.6,3.1,1e-3,inf,+3\r\n");
+  files::write_whole(folder / "table" / "angles.csv", "cos_i,color_r,x,ref_f_r\n1,0.5,2,0.5\n0,1,3,0\n");
+  files::write_whole(folder / "table" / "excel.csv",
+                     "\xef\xbb\xbf\"light_x\",light_y, light_z ,color\r\n0.6,0,0.8,\"0.25\"\r\n\r\n0,0,+1e0,1\r\n");
+  files::write_whole(folder / "table" / "extremes.csv", "x,ref_g\nnan,inf\n1e999,-1e-999\n4.9e-324,-0\n");
+  files::write_whole(folder / "table" / "not_unit.csv", "light_x\n0.5\n");
 }
