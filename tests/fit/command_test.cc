@@ -14,6 +14,7 @@
 #include <vector>
 #include <nlohmann/json.hpp>
 
+#include "fit/fit.h"
 #include "render/files/files.h"
 #include "render/material/material_file.h"
 #include "tests/fit/known_materials.h"
@@ -383,9 +384,10 @@ TEST_F(FitCommand, AModelThatIsNotFittedIsRefusedWithThoseThatAre) {
   files::write_whole(folder / "a.mbsdf", small(2));
   const Ran ran = run(quick(folder / "a.mbsdf", folder / "out", {"--model", "callisto_proxima"}));
   EXPECT_EQ(ran.exit_code, 2);
-  EXPECT_EQ(ran.error,
-            "likeness: --model callisto_proxima is a model that is not fitted; those that are: callisto, disney2012, "
-            "ggx, lambert, burley_diffuse, oren_nayar, oren_nayar_1994, proxima\n");
+  EXPECT_EQ(
+      ran.error,
+      "likeness fit: --model callisto_proxima is a model that is not fitted; those that are: callisto, disney2012, "
+      "ggx, lambert, burley_diffuse, oren_nayar, oren_nayar_1994, proxima\n");
   EXPECT_FALSE(fs::exists(folder / "out"));
 }
 

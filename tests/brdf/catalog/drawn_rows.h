@@ -21,7 +21,7 @@ inline Columns drawn_inputs(const Entry& entry, const Form& form, std::size_t ro
   Columns columns(form.count, std::vector<float>(rows));
   std::vector<float*> at;
   for (auto& column : columns) at.push_back(column.data());
-  eval::Random random(seed, entry.name, 0);
+  eval::Random random(eval::stream_of(seed, entry.name), 0);
   for (std::size_t row = 0; row < rows; ++row) draw.row(random, at.data(), row);
   return columns;
 }
