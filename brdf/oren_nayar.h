@@ -18,10 +18,11 @@ T in_surface_product(const Geometry<T>& g) {
 }
 
 // s / max(cos_i, cos_o), [0, inf): what [1] writes as max(0, cos phi) sin(alpha) tan(beta), alpha and beta the larger and
-// the smaller of the two angles to the normal. Finite for any cosines, because the denominator is kept above kTiny.
+// the smaller of the two angles to the normal. Finite for any cosines, because the denominator is kept above
+// 1e-18, in every scalar.
 template <Scalar T>
 T towards_light(const Geometry<T>& g, const T& s) {
-  return positive(s) / larger(larger(g.cos_i, g.cos_o), constant<T>(kTiny<T>));
+  return positive(s) / larger(larger(g.cos_i, g.cos_o), constant<T>(1e-18));
 }
 
 // Rough diffuse surfaces of Lambertian facets, in the form that Fujii made of Oren and Nayar's: brighter towards the

@@ -24,10 +24,10 @@ T proxima_turn(const Geometry<T>& g) {
 }
 
 // What Proxima makes of Lambert's 1: alpha (-0.55 + 0.19 / cos_i) turn + 1. Needs cos_i >= 0; finite at 0, because the
-// denominator is kept above kTiny. At least 1 - 0.36 alpha, so never negative for alpha in [0, 1].
+// denominator is kept above 1e-18, in every scalar. At least 1 - 0.36 alpha, so never negative for alpha in [0, 1].
 template <Scalar S, Scalar T>
 S proxima_factor(const S& alpha, const T& cos_i, const T& turn) {
-  const T rise = constant<T>(0.19) / larger(cos_i, constant<T>(kTiny<T>)) - constant<T>(0.55);
+  const T rise = constant<T>(0.19) / larger(cos_i, constant<T>(1e-18)) - constant<T>(0.55);
   return S(1) + alpha * T(rise * turn);
 }
 // The same times cos_i, without a division: alpha (0.19 - 0.55 cos_i) turn + cos_i.

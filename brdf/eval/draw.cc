@@ -42,8 +42,18 @@ Vector any_direction(Random& random, unsigned edges) {
     constexpr std::array kHeights{0.0, 1.0, 1e-7, -1e-7, 1e-4, 1e-12, 1e-20, 1e-38, -1.0, 1 - 1e-7, 0.5, 1e-2};
     z = random.below(4) == 0 ? random.uniform(-1, 1) : kHeights[random.below(kHeights.size())];
   }
-  const double phi = random.below(4) == 0 ? kPi / 2 * random.below(4) : random.uniform(0, 2 * kPi);
-  return at_height(z, phi);
+  if (random.below(4) != 0) return at_height(z, random.uniform(0, 2 * kPi));
+  const Vector along = at_height(z, 0);  // along an axis, exactly
+  switch (random.below(4)) {
+    case 0:
+      return along;
+    case 1:
+      return {0, along.x, z};
+    case 2:
+      return {-along.x, 0, z};
+    default:
+      return {0, -along.x, z};
+  }
 }
 
 Vector beside(const Vector& v, double distance, Random& random) {

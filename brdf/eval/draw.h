@@ -49,6 +49,9 @@ class Draw {
   // The float beside x, towards the middle of the input's range.
   float beside(std::size_t input, float x) const;
 
+  // Whether 0 is within an input's range.
+  bool reaches_zero(std::size_t input) const { return rows_[input].low <= 0 && rows_[input].high >= 0; }
+
   // One row, written to columns[i][row].
   void row(Random& random, float* const* columns, std::size_t row) const;
 

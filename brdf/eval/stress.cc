@@ -170,10 +170,19 @@ class Sweep {
     }
   }
 
+  bool is_compared(const Columns<float>& single, std::size_t row) const {
+    for (std::size_t i = 0; i < draw_.count(); ++i) {
+      const float x = std::abs(single.to[i][row]);
+      if (x > 0 && x < kLeastCompared && draw_.reaches_zero(i)) return false;
+    }
+    return true;
+  }
+
   void compare(Swept& swept, const Columns<float>& single, const Columns<double>& exact, std::size_t rows) const {
     double most_ulps = kLeastUlps;
     std::vector<double> uncertain;
     for (std::size_t row = 0; row < rows; ++row) {
+      if (!is_compared(single, row)) continue;
       double worst = 0, ulps_at_most = 0;
       std::size_t at = 0;
       bool comparable = true;
@@ -187,6 +196,7 @@ class Sweep {
         ulps_at_most = worst / kHalfUlp;
       }
       if (!comparable) continue;  // counted as not finite
+      ++swept.compared;
       ++swept.histogram[bin_of(worst)];
       swept.over += worst > kErrorDemand;
       if (worst > swept.worst.value)
@@ -246,6 +256,7 @@ double Swept::quantile(double share) const {
 void Swept::add(const Swept& next) {
   not_finite += next.not_finite;
   negative += next.negative;
+  compared += next.compared;
   over += next.over;
   seconds += next.seconds;
   if (bad.inputs.empty()) bad = next.bad;

@@ -14,6 +14,9 @@
 namespace likeness::eval {
 
 inline constexpr double kErrorFloor = 1e-30;  // results below it count as that when errors are made relative
+// Rows with an input below it, if its range reaches 0, are checked but not compared: what is divided by two cosines is
+// kept above 1e-18 in float and above 1e-150 in double (brdf/scalar.h), so the two differ by design.
+inline constexpr float kLeastCompared = 1e-9f;
 inline constexpr double kErrorDemand = 2e-5;  // rows above it are counted
 inline constexpr double kLeastUlps = 16;      // errors below that many units of the inputs are not told apart
 
@@ -36,9 +39,10 @@ struct Found {
 struct Swept {
   std::string_view precision;
   std::uint64_t not_finite = 0, negative = 0;
-  Found bad;               // the first row of these
-  Found worst;             // by |got - want| / max(|want|, kErrorFloor)
-  std::uint64_t over = 0;  // rows whose error is above kErrorDemand
+  std::uint64_t compared = 0;  // rows: not those with an input below kLeastCompared
+  Found bad;                   // the first row of these
+  Found worst;                 // by |got - want| / max(|want|, kErrorFloor)
+  std::uint64_t over = 0;      // compared rows whose error is above kErrorDemand
   // By the error in units of what is uncertain: the sum of what one ulp of each input changes (in double), and half an
   // ulp of the result. Near 1 nobody can do better with these inputs. kLeastUlps where nothing exceeds that.
   Found ulps;

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cstdio>
@@ -43,7 +44,9 @@ std::array<std::string, 10> cells_of(const Stressed& result, const Swept& s) {
           std::to_string(s.negative),
           error(s.quantile(0.999)),
           error(s.worst.value),
-          compared ? short_number(100 * static_cast<double>(s.over) / rows) + " %" : "-",
+          compared
+              ? short_number(100 * static_cast<double>(s.over) / std::max(1.0, static_cast<double>(s.compared))) + " %"
+              : "-",
           !compared               ? "-"
           : s.ulps.inputs.empty() ? "< " + short_number(kLeastUlps)
                                   : short_number(s.ulps.value),
@@ -97,8 +100,8 @@ std::string stress_lines(const Stressed& result, bool markdown) {
 }
 
 std::string stress_csv_header() {
-  return "model,family,precision,rows,not_finite,negative,error_999,error_worst,rows_over,ulps_worst,rows_per_second,"
-         "worst_at,ulps_at,bad_at\n";
+  return "model,family,precision,rows,not_finite,negative,rows_compared,error_999,error_worst,rows_over,ulps_worst,"
+         "rows_per_second,worst_at,ulps_at,bad_at\n";
 }
 
 std::string stress_csv_lines(const Stressed& result) {
@@ -107,10 +110,10 @@ std::string stress_csv_lines(const Stressed& result) {
   for (const Swept& s : result.precisions) {
     text += std::string(result.entry->name) + "," + std::string(result.entry->family) + "," + std::string(s.precision) +
             "," + std::to_string(result.rows) + "," + std::to_string(s.not_finite) + "," + std::to_string(s.negative);
-    if (s.precision == "double") text += ",,,,";
+    if (s.precision == "double") text += ",,,,,";
     else
-      text += "," + number(s.quantile(0.999)) + "," + number(s.worst.value) + "," + std::to_string(s.over) + "," +
-              number(s.ulps.value);
+      text += "," + std::to_string(s.compared) + "," + number(s.quantile(0.999)) + "," + number(s.worst.value) + "," +
+              std::to_string(s.over) + "," + number(s.ulps.value);
     text += "," + number(static_cast<double>(result.rows) / s.seconds);
     for (const Found* found : {&s.worst, &s.ulps, &s.bad}) text += "," + inputs_text(*result.entry, found->inputs);
     text += "\n";

@@ -89,7 +89,7 @@ std::vector<std::string> every_subcommand() {
 TEST(CommandLine, ListsTheSubcommandsOfEveryRoom) {
   const auto names = subcommands_in(run("--help").out);
   const std::set<std::string> have(names.begin(), names.end());
-  for (const std::string name : {"fit", "convert", "make"}) EXPECT_TRUE(have.contains(name)) << name;
+  for (const std::string name : {"fit", "convert", "make", "eval", "slice", "cost"}) EXPECT_TRUE(have.contains(name)) << name;
 }
 
 TEST(CommandLine, HelpsWithEverySubcommand) {
@@ -120,7 +120,7 @@ TEST(CommandLine, NamesTheNearestOption) {
   expect_refusal("fit gold.binary --strats=3", 2, {"did you mean --starts?"});
 }
 TEST(CommandLine, AsksForASubcommandWhenThereIsNone) {
-  expect_refusal("", 2, {"a subcommand is needed", "fit", "convert", "make"});
+  expect_refusal("", 2, {"a subcommand is needed", "fit", "convert", "make", "eval", "slice", "cost"});
 }
 TEST(CommandLine, RefusesANumberThatIsNone) {
   expect_refusal("fit gold.binary --starts many", 2, {"--starts", "many"});
