@@ -69,21 +69,24 @@ std::vector<double> values_of(const Rung& rung, const catalog::Entry& entry, con
 
 Accuracy accuracy_of(const Family& family, const Draws& draws, const std::vector<double>& values,
                      const std::vector<double>& reference) {
+  const std::size_t width = family.draw_names.size();
+  const auto draw = [&](std::size_t i) { return draws.rows.data() + i * width; };
+  const auto weight = [&](std::size_t i) { return family.value_weight ? family.value_weight(draw(i)) : 1.0; };
   double squares = 0, reference_squares = 0;
   for (std::size_t i = 0; i < draws.count; ++i) {
-    const double d = values[i] - reference[i];
+    const double w = weight(i), d = w * (values[i] - reference[i]);
     squares += d * d;
-    reference_squares += reference[i] * reference[i];
+    reference_squares += w * reference[i] * w * reference[i];
   }
   const double mean = std::sqrt(reference_squares / double(draws.count));
   Accuracy accuracy{std::sqrt(squares / reference_squares), 0, "", std::numeric_limits<double>::quiet_NaN()};
   std::size_t worst = 0;
   for (std::size_t i = 0; i < draws.count; ++i) {
+    const double w = weight(i);
     const double relative =
-        std::abs(values[i] - reference[i]) / std::max(std::abs(reference[i]), family.negligible * mean);
+        w * std::abs(values[i] - reference[i]) / std::max(w * std::abs(reference[i]), family.negligible * mean);
     if (!(relative <= accuracy.worst)) accuracy.worst = relative, worst = i;
   }
-  const std::size_t width = family.draw_names.size();
   for (std::size_t k = 0; k < width; ++k) {
     char text[64];
     std::snprintf(text, sizeof text, "%s%s = %.4g", k == 0 ? "" : ", ", family.draw_names[k].c_str(),
@@ -93,9 +96,9 @@ Accuracy accuracy_of(const Family& family, const Draws& draws, const std::vector
   if (family.energy_weight) {
     std::vector<double> sum(family.energy_bins), reference_sum(family.energy_bins);
     for (std::size_t i = 0; i < draws.count; ++i) {
-      const double* draw = draws.rows.data() + i * width;
-      const double w = family.energy_weight(draw);
-      const std::size_t bin = family.energy_bin ? family.energy_bin(draw) : 0;
+      const double w = family.energy_weight(draw(i));
+      if (w == 0) continue;
+      const std::size_t bin = family.energy_bin ? family.energy_bin(draw(i)) : 0;
       sum[bin] += w * values[i];
       reference_sum[bin] += w * reference[i];
     }

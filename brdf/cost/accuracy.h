@@ -30,6 +30,7 @@ Columns columns_of(const Family& family, const Rung& rung, const catalog::Entry&
 std::vector<double> values_of(const Rung& rung, const catalog::Entry& entry, const Draws& draws, const Columns& columns,
                               Precision precision);
 
+// Of value x weight (Family::value_weight), but for `energy`.
 struct Accuracy {
   double rms = 0;     // root of the mean squared difference, over that of the reference's values
   double worst = 0;   // largest |difference| / max(|reference|, family.negligible x the reference's root mean square)

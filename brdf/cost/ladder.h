@@ -53,7 +53,11 @@ struct Family {
   std::string distribution;  // of the draws, in words
   std::vector<std::string> draw_names;
   std::function<void(Random&, double* draw)> draw;
-  // What a value counts for in the energy (a cosine, a width of radii); empty: there is no energy to compare.
+  // What a value counts for in the RMS and the worst error: value x weight is compared. Empty: 1.
+  std::function<double(const double* draw)> value_weight = {};
+  std::string compared = "the values";  // what value x weight is, in words
+  // What a value counts for in the energy (a cosine, a width of radii; 0 leaves the draw out); empty: there is no energy
+  // to compare.
   std::function<double(const double* draw)> energy_weight = {};
   // Sums are taken within each of these bins of draws (a range of roughness and of view angles), as an albedo is.
   std::function<std::size_t(const double* draw)> energy_bin = {};
