@@ -1,7 +1,6 @@
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
-#include <ImfIO.h>
 #include <ImfOutputFile.h>
 
 #include <exception>
@@ -9,32 +8,10 @@
 #include <string>
 
 #include "render/files/files.h"
+#include "render/image/exr_stream.h"
 #include "render/image/write.h"
 
 namespace likeness::image {
-namespace {
-
-// A file in memory, written from the start and patched at the end (OpenEXR goes back to its line table).
-class MemoryFile : public Imf::OStream {
- public:
-  MemoryFile() : Imf::OStream("memory") {}
-  void write(const char bytes[], int count) override {
-    const std::size_t end = at_ + static_cast<std::size_t>(count);
-    if (content_.size() < end) content_.resize(end);
-    content_.replace(at_, static_cast<std::size_t>(count), bytes, static_cast<std::size_t>(count));
-    at_ = end;
-  }
-  std::uint64_t tellp() override { return at_; }
-  void seekp(std::uint64_t at) override { at_ = at; }
-  const std::string& content() const { return content_; }
-
- private:
-  std::string content_;
-  std::size_t at_ = 0;
-};
-
-}  // namespace
-
 void write_exr(const std::filesystem::path& file, const Picture& picture) {
   MemoryFile memory;
   try {

@@ -5,8 +5,6 @@
 #include <ImfInputFile.h>
 
 #include <cmath>
-#include <cstdlib>
-#include <filesystem>
 #include <limits>
 #include <random>
 #include <string>
@@ -15,22 +13,12 @@
 #include "render/image/difference.h"
 #include "render/image/tone_curve.h"
 #include "render/image/write.h"
+#include "tests/render/temporary_folder.h"
 
 namespace likeness::image {
 namespace {
 
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "likeness_image_XXXXXX").string();
-    path_ = mkdtemp(name.data());
-  }
-  ~TemporaryFolder() { std::filesystem::remove_all(path_); }
-  std::filesystem::path operator/(const char* name) const { return path_ / name; }
-
- private:
-  std::filesystem::path path_;
-};
+using likeness::test::TemporaryFolder;
 
 DisplayPicture noise(int width, int height, unsigned seed) {
   std::mt19937 random(seed);
