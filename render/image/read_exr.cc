@@ -1,7 +1,6 @@
 #include "render/image/read_exr.h"
 
 #include <ImfChannelList.h>
-#include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
 #include <ImfInputPart.h>
 #include <ImfMultiPartInputFile.h>
@@ -9,16 +8,13 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdint>
-#include <cstring>
-#include <exception>
 #include <map>
-#include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "render/files/files.h"
+#include "render/image/exr_part.h"
 #include "render/image/exr_stream.h"
 
 namespace likeness::image {
@@ -26,14 +22,6 @@ namespace {
 
 using files::in_quotes;
 using files::InputError;
-
-struct Extent {
-  std::int64_t left, top, width, height;
-};
-
-Extent extent_of(const Imath::Box2i& box) {
-  return {box.min.x, box.min.y, std::int64_t{box.max.x} - box.min.x + 1, std::int64_t{box.max.y} - box.min.y + 1};
-}
 
 // Channels of one part that make a picture: their full names in the order of Texels, "" for one that is missing.
 struct Choice {
@@ -80,15 +68,22 @@ class Reader {
   Texels read() {
     const Choice choice = chosen();
     const Imf::Header& header = file_.header(choice.part);
-    check(header, choice);
-    const Extent shown = extent_of(header.displayWindow());
+    check_exr_windows(header, name_, options_.most_texels);
+    for (const std::string& n : choice.names)
+      if (!n.empty()) check_exr_sampling(header, n, name_);
+    // A luminance/chroma picture: Y alone would be read as grey, which it is not.
+    if (choice.names[0] == "Y" && (header.channels().findChannel("RY") || header.channels().findChannel("BY")))
+      refuse("EXR stores luminance and chroma (Y, RY, BY); convert it to R, G, B");
     Texels out;
-    out.width = static_cast<int>(shown.width);
-    out.height = static_cast<int>(shown.height);
+    out.width = header.displayWindow().max.x - header.displayWindow().min.x + 1;
+    out.height = header.displayWindow().max.y - header.displayWindow().min.y + 1;
     out.channels = static_cast<int>(choice.names.size());
     Imf::InputPart part(file_, choice.part);
     out.floats.resize(out.count() * choice.names.size());
-    fill(part, choice, shown, out);
+    std::vector<ChannelTarget> targets;
+    for (std::size_t c = 0; c < choice.names.size(); ++c)
+      if (!choice.names[c].empty()) targets.push_back({choice.names[c], out.floats.data() + c, choice.names.size()});
+    read_channels(part, targets);
     return out;
   }
 
@@ -139,77 +134,6 @@ class Reader {
            (others.size() > 1 ? " and " + std::to_string(others.size() - 1) + " more" : ""));
   }
 
-  void check(const Imf::Header& header, const Choice& choice) const {
-    const Extent shown = extent_of(header.displayWindow()), data = extent_of(header.dataWindow());
-    for (const Extent& e : {shown, data})
-      if (e.width < 1 || e.height < 1 || e.width > kLongestSide || e.height > kLongestSide ||
-          static_cast<std::uint64_t>(e.width * e.height) > options_.most_texels)
-        refuse("EXR of " + std::to_string(e.width) + " x " + std::to_string(e.height) + " pixels; at most " +
-               std::to_string(options_.most_texels) + " pixels and " + std::to_string(kLongestSide) +
-               " a side are allowed");
-    for (const std::string& n : choice.names) {
-      if (n.empty()) continue;
-      const Imf::Channel& c = header.channels()[n.c_str()];
-      if (c.xSampling != 1 || c.ySampling != 1)
-        refuse("EXR channel " + in_quotes(n) + " is stored at every " + std::to_string(c.xSampling) + " x " +
-               std::to_string(c.ySampling) + " pixels; only full resolution is read");
-    }
-    // A luminance/chroma picture: Y alone would be read as grey, which it is not.
-    if (choice.names[0] == "Y" && (header.channels().findChannel("RY") || header.channels().findChannel("BY")))
-      refuse("EXR stores luminance and chroma (Y, RY, BY); convert it to R, G, B");
-    // OpenEXR keeps one block of lines of every channel in memory, and one row of tiles.
-    std::uint64_t line = 0;
-    for (auto c = header.channels().begin(); c != header.channels().end(); ++c)
-      line += static_cast<std::uint64_t>(data.width) * (c.channel().type == Imf::HALF ? 2 : 4);
-    std::uint64_t lines = 256;  // of the largest block, DWAB
-    if (header.hasTileDescription()) {
-      const Imf::TileDescription& tile = header.tileDescription();
-      lines = std::max<std::uint64_t>(lines, tile.ySize);
-      line = std::max(line, line / static_cast<std::uint64_t>(data.width) * tile.xSize);
-    }
-    constexpr std::uint64_t kMostBlockBytes = std::uint64_t{1} << 31;
-    if (line * std::min<std::uint64_t>(lines, kLongestSide) > std::max(kMostBlockBytes, 16 * options_.most_texels))
-      refuse("EXR needs " + std::to_string(line * lines / 1000000) + " MB for one block of lines; at most " +
-             std::to_string(kMostBlockBytes / 1000000) + " MB are allowed");
-  }
-
-  // Reads the data window in blocks of lines, and copies what of it lies in the display window.
-  void fill(Imf::InputPart& part, const Choice& choice, const Extent& shown, Texels& out) const {
-    const Extent data = extent_of(part.header().dataWindow());
-    const std::size_t channels = choice.names.size();
-    const std::int64_t left = std::max(data.left, shown.left);
-    const std::int64_t right = std::min(data.left + data.width, shown.left + shown.width);
-    const std::int64_t top = std::max(data.top, shown.top);
-    const std::int64_t bottom = std::min(data.top + data.height, shown.top + shown.height);
-    if (left >= right || top >= bottom) return;
-    constexpr std::int64_t kLines = 256;  // a multiple of every compression's block of lines
-    // Blocks of lines are counted from the top of the data window.
-    const std::int64_t first_block = (top - data.top) / kLines;
-    const std::size_t row = static_cast<std::size_t>(data.width) * channels;
-    std::vector<float> lines(row * static_cast<std::size_t>(std::min(kLines, data.height)));
-    for (std::int64_t block = first_block; data.top + block * kLines < bottom; ++block) {
-      const std::int64_t from = std::max(top, data.top + block * kLines);
-      const std::int64_t to = std::min(bottom, data.top + (block + 1) * kLines);
-      Imf::FrameBuffer pixels;
-      for (std::size_t c = 0; c < channels; ++c) {
-        if (choice.names[c].empty()) continue;
-        // Imf::Slice::Make finds the address that (0, 0) would have.
-        pixels.insert(choice.names[c],
-                      Imf::Slice::Make(Imf::FLOAT, lines.data() + c,
-                                       Imath::V2i(static_cast<int>(data.left), static_cast<int>(from)), data.width,
-                                       to - from, channels * sizeof(float), row * sizeof(float)));
-      }
-      part.setFrameBuffer(pixels);
-      part.readPixels(static_cast<int>(from), static_cast<int>(to - 1));
-      for (std::int64_t y = from; y < to; ++y)
-        std::memcpy(
-            out.floats.data() + static_cast<std::size_t>((y - shown.top) * shown.width + left - shown.left) * channels,
-            lines.data() + static_cast<std::size_t>(y - from) * row +
-                static_cast<std::size_t>(left - data.left) * channels,
-            static_cast<std::size_t>(right - left) * channels * sizeof(float));
-    }
-  }
-
   std::string name_;
   ReadOptions options_;
   MemoryInput stream_;
@@ -221,23 +145,10 @@ class Reader {
 bool is_exr(std::string_view bytes) { return bytes.starts_with(std::string_view("\x76\x2f\x31\x01", 4)); }
 
 Texels decode_exr(std::string_view bytes, const std::string& name, const ReadOptions& options) {
-  // OpenEXR allocates its table of lines or tiles by the header's size before anybody can look at that. The limits
-  // are of the process.
-  static const bool kLimited = [] {
-    Imf::Header::setMaxImageSize(kLongestSide, kLongestSide);
-    Imf::Header::setMaxTileSize(kLongestSide, kLongestSide);
-    return true;
-  }();
-  (void)kLimited;
-  try {
-    return Reader(bytes, name, options).read();
-  } catch (const InputError&) {
-    throw;
-  } catch (const std::exception& e) {
-    std::string cause = e.what();
-    std::ranges::replace(cause, '\n', ' ');
-    throw InputError(name + ": EXR cannot be read (" + cause.substr(0, 300) + ")");
-  }
+  limit_exr_headers();
+  Texels out;
+  with_exr_errors(name, [&] { out = Reader(bytes, name, options).read(); });
+  return out;
 }
 
 }  // namespace likeness::image
