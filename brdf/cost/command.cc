@@ -5,11 +5,13 @@
 #include <cstdio>
 #include <iostream>
 #include <memory>
+#include <optional>
 
 #include <CLI/CLI.hpp>
 
 #include "brdf/cost/study.h"
 #include "render/files/files.h"
+#include "render/files/interrupt.h"
 
 namespace likeness::cost {
 namespace {
@@ -22,20 +24,31 @@ struct Request {
 
 int run(const Request& request) {
   const bool on_terminal = isatty(STDERR_FILENO) == 1;
-  Study study;
+  const std::filesystem::path folder = request.out;
+  // Before anything is measured: what there is not, and a folder that cannot be written to, are said at once.
   try {
-    study = run_study(request.options, [&](const std::string& what, double share) {
-      if (on_terminal) std::fprintf(stderr, "\r\033[K%3.0f %%  %s", 100 * share, what.c_str());
-    });
+    chosen_families(request.options.families);
   } catch (const std::invalid_argument& error) {
     throw files::UsageError(error.what());
   }
+  std::optional<files::WholeFile> csv, page;
+  if (!request.out.empty()) csv.emplace(folder / "evaluators.csv"), page.emplace(folder / "evaluators.html");
+  files::catch_interrupts();
+  Study study;
+  try {
+    study = run_study(request.options, [&](const std::string& what, double share) {
+      if (files::interrupted()) throw files::Interrupted{};
+      if (on_terminal) std::fprintf(stderr, "\r\033[K%3.0f %%  %s", 100 * share, what.c_str());
+    });
+  } catch (const files::Interrupted&) {
+    std::cerr << (on_terminal ? "\n" : "") << "likeness cost: interrupted; nothing is written\n";
+    return 130;
+  }
   if (on_terminal) std::fprintf(stderr, "\r\033[K");
   std::cout << (request.csv ? csv_of(study) : table_of(study));
-  if (!request.out.empty()) {
-    const std::filesystem::path folder = request.out;
-    files::write_whole(folder / "evaluators.csv", csv_of(study));
-    files::write_whole(folder / "evaluators.html", page_of(study));
+  if (csv) {
+    csv->append(csv_of(study)), csv->commit();
+    page->append(page_of(study)), page->commit();
     std::cerr << "written: " << (folder / "evaluators.html").string() << " and evaluators.csv beside it\n";
   }
   return 0;
@@ -57,7 +70,7 @@ void add_cost(CLI::App& program, int& exit_code) {
       "  likeness cost evaluators --out out/cost             all families, a minute or two; and a page with plots\n"
       "  likeness cost evaluators --family hair --repeats 51 one family, more readings\n"
       "\n"
-      "Exit codes: 0 done, 2 usage, 4 the results cannot be written.");
+      "Exit codes: 0 done, 2 usage, 4 the results cannot be written, 130 interrupted.");
   evaluators->add_option(
       "--family", request->options.families,
       "Only these: diffuse, fresnel, hair, diffusion_inverse, diffusion_profile, normal_length, tonemap");

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <random>
@@ -66,6 +67,10 @@ struct Family {
   std::size_t draws = 20000;     // for the errors
   double negligible = 1e-4;      // of the reference's root mean square: smaller values count as this in relative errors
   std::vector<Rung> rungs;
+  // For a family whose reference is random, in place of a rung that is marked as it: two independent estimates of the
+  // compared value at every draw. Their mean is the reference, half of what they differ by its noise. `effort`: a share
+  // of the usual number of samples.
+  std::function<std::array<std::vector<double>, 2>(const std::vector<double>& rows, double effort)> estimates = {};
 };
 
 // All families, in the order of the page.

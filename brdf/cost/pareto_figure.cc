@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "brdf/cost/pareto_axis.h"
 #include "render/page/html.h"
 #include "render/page/svg.h"
 
@@ -13,111 +14,212 @@ using page::number;
 using page::svg_line;
 using page::svg_text;
 
-constexpr double kLeft = 46, kRight = 340, kTop = 22, kBottom = 238;
-constexpr double kLeastError = 1e-8;  // smaller ones stand on the lowest line: a float cannot tell them apart
+constexpr double kWidth = 580, kHeight = 372;
+constexpr double kLeft = 58, kRight = 568, kTop = 34, kBottom = 322;
+constexpr double kDisc = 6, kLine = 13;
+constexpr double kLabelSize = 11.5, kLetter = 6.2, kBoldLetter = 7;  // of labels; an average
+constexpr double kLeastError = 1e-12;                                // stands for 0
 
-// Decades that hold all values of a family, so that its three plots share their axes.
-struct Span {
-  double low, high;
-  double at(double value, double from, double to) const {
-    return from + (std::log10(value) - low) / (high - low) * (to - from);
+struct Box {
+  double x0, y0, x1, y1;
+  double overlap(const Box& b) const {
+    const double w = std::min(x1, b.x1) - std::max(x0, b.x0), h = std::min(y1, b.y1) - std::max(y0, b.y0);
+    return w > 0 && h > 0 ? w * h : 0;
   }
 };
 
-template <class F>
-Span span_of(const FamilyResult& result, F&& value) {
-  double least = 1e300, most = 0;
-  for (const auto& cells : result.cells)
-    for (const Cell& cell : cells) {
-      least = std::min(least, value(cell));
-      most = std::max(most, value(cell));
+struct Point {
+  std::string name;
+  double time, error;  // as drawn
+  double x = 0, y = 0;
+  bool dominated, one_by_one;
+  std::string label = {};
+};
+
+double shown_error(const FamilyResult& result, const Cell& cell) {
+  return std::max({cell.accuracy.rms, result.noise, kLeastError});
+}
+
+std::string time_text(double ns) {
+  return ns < 1e3 ? number(ns) + " ns" : ns < 1e6 ? number(ns / 1e3) + " µs" : number(ns / 1e6) + " ms";
+}
+
+std::string error_text(double error) {
+  if (error <= kLeastError) return "0";
+  return error >= 1e-3 ? number(error, 2) : page::number(error, 1);
+}
+
+// The letters of a label, not its bytes.
+double width_of(const std::string& text, bool bold) {
+  return (bold ? kBoldLetter : kLetter) *
+         double(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xc0) != 0x80; }));
+}
+
+// Where each label lies: beside its point, or, where others are in the way, farther off with a line to it.
+class Labels {
+ public:
+  explicit Labels(const std::vector<Point>& points) {
+    for (const Point& p : points)
+      taken_.push_back({p.x - kDisc - 1, p.y - kDisc - 1, p.x + kDisc + 1, p.y + kDisc + 1});
+  }
+  std::string place(const Point& p) {
+    const bool in_front = !p.dominated && !p.one_by_one;
+    const double width = width_of(p.label, in_front);
+    struct Candidate {
+      double dx, dy;  // from the point to the near end of the text, or to its middle
+      int side;       // 1 to the right, -1 to the left, 0 above or below
+    };
+    std::vector<Candidate> all;
+    for (const double dy : {0.0, -10.0, 10.0, -20.0, 20.0, -32.0, 32.0, -45.0, 45.0, -60.0, 60.0, -76.0, 76.0, -92.0}) {
+      const double dx = dy == 0 ? kDisc + 4 : kDisc + 2;
+      all.push_back({dx, dy, 1});
+      all.push_back({-dx, dy, -1});
+      if (std::abs(dy) >= 20) all.push_back({0, dy, 0});
     }
-  return {std::floor(std::log10(least) - 0.1), std::ceil(std::log10(most) + 0.1)};
-}
+    const Candidate* best = nullptr;
+    Box best_box{};
+    double least = 1e300;
+    for (const Candidate& c : all) {
+      const double x = p.x + c.dx - (c.side < 0 ? width : c.side == 0 ? width / 2 : 0), y = p.y + c.dy;
+      const Box box{x - 1, y - kLine / 2, x + width + 1, y + kLine / 2};
+      const Box inside{kLeft + 2, kTop + 2, kRight - 2, kBottom - 2};
+      double cost = (box.x1 - box.x0) * (box.y1 - box.y0) - box.overlap(inside);
+      for (const Box& other : taken_) cost += box.overlap(other);
+      if (cost < least - 1e-9) least = cost, best = &c, best_box = box;
+      if (least <= 1e-9) break;
+    }
+    taken_.push_back(best_box);
+    const double anchor = p.x + best->dx;
+    std::string out;
+    if (std::abs(best->dy) > 15)
+      out += svg_line(p.x, p.y, anchor, p.y + best->dy * 0.8, "stroke=\"#999\" stroke-width=\".8\"");
+    const std::string style = in_front ? "fill:#0b3d6e;font-weight:600" : "fill:#595959";
+    return out + svg_text(anchor, p.y + best->dy + 4,
+                          best->side > 0   ? "start"
+                          : best->side < 0 ? "end"
+                                           : "middle",
+                          page::escape(p.label), kLabelSize,
+                          " style=\"" + style + ";paint-order:stroke;stroke:#fff;stroke-width:3px\"");
+  }
 
-double error_of(const Cell& cell) { return std::max(cell.accuracy.rms, kLeastError); }
-double time_of(const Cell& cell) { return std::max(cell.timing.ns, 0.01); }
+ private:
+  std::vector<Box> taken_;
+};
 
-std::string power_of_ten(int e) {
-  if (e >= 0 && e <= 3) return number(std::pow(10.0, e), e + 1);
-  if (e == -1) return "0.1";
-  if (e == -2) return "0.01";
-  return "10<tspan font-size=\"8\" dy=\"-4\">" + std::string(e < 0 ? "−" : "") + std::to_string(std::abs(e)) +
-         "</tspan>";
-}
+std::string tick_text(double value) { return value >= 1e6 || value < 1e-4 ? number(value, 1) : page::plain(value); }
 
-std::string frame(const Span& x, const Span& y, bool has_floor) {
+// Two short strokes across the frame, where an axis is broken.
+std::string break_mark(double x, double y, bool across_x) {
   std::string out;
-  const int x_step = x.high - x.low > 6 ? 2 : 1, y_step = y.high - y.low > 6 ? 2 : 1;
-  for (int e = int(x.low); e <= int(x.high); ++e) {
-    const double at = x.at(std::pow(10.0, e), kLeft, kRight);
-    out += svg_line(at, kTop, at, kBottom, "stroke=\"#e3e3e3\"");
-    if ((e - int(x.low)) % x_step == 0) out += svg_text(at, kBottom + 14, "middle", power_of_ten(e), 11);
+  for (const double d : {-2.5, 2.5}) {
+    const double ux = across_x ? d : 0, uy = across_x ? 0 : d;
+    out += svg_line(x + ux - 4, y + uy + 4, x + ux + 4, y + uy - 4, "stroke=\"#555\"");
   }
-  for (int e = int(y.low); e <= int(y.high); ++e) {
-    const double at = y.at(std::pow(10.0, e), kBottom, kTop);
-    out += svg_line(kLeft, at, kRight, at, "stroke=\"#e3e3e3\"");
-    const bool is_floor = has_floor && e == int(y.low);
-    if ((e - int(y.low)) % y_step == 0)
-      out += svg_text(kLeft - 5, at + 4, "end", (is_floor ? "≤ " : "") + power_of_ten(e), 11);
+  return out;
+}
+
+std::string frame(const Axis& x, const Axis& y) {
+  std::string out = "<rect x=\"" + number(kLeft) + "\" y=\"" + number(kTop) + "\" width=\"" + number(kRight - kLeft) +
+                    "\" height=\"" + number(kBottom - kTop) + "\" fill=\"#fff\" stroke=\"#888\"/>";
+  for (const auto& [value, at] : x.ticks())
+    out += svg_line(at, kTop, at, kBottom, "stroke=\"#e6e6e6\"") +
+           svg_text(at, kBottom + 15, "middle", tick_text(value), 11);
+  for (const auto& [value, at] : y.ticks())
+    out += svg_line(kLeft, at, kRight, at, "stroke=\"#e6e6e6\"") +
+           svg_text(kLeft - 5, at + 4, "end", tick_text(value), 11);
+  if (x.is_broken) {
+    out += svg_line(x.to, kTop, x.to, kBottom, "stroke=\"#888\" stroke-dasharray=\"4 3\"") +
+           break_mark(x.to, kBottom, true) + svg_text((x.to + kRight) / 2, kBottom + 15, "middle", "slower →", 11);
   }
-  return out + "<rect x=\"" + number(kLeft) + "\" y=\"" + number(kTop) + "\" width=\"" + number(kRight - kLeft) +
-         "\" height=\"" + number(kBottom - kTop) + "\" fill=\"none\" stroke=\"#888\"/>" +
-         svg_text((kLeft + kRight) / 2, kBottom + 31, "middle", "ns per evaluation →", 11) +
-         svg_text(kLeft, kTop - 8, "start", "relative RMS error ↓ better", 11);
+  if (y.is_broken) {
+    out += svg_line(kLeft, y.from, kRight, y.from, "stroke=\"#888\" stroke-dasharray=\"4 3\"") +
+           break_mark(kLeft, y.from, false) + svg_text(kLeft - 5, (y.from + kBottom) / 2 + 4, "end", "below", 11);
+  }
+  return out + svg_text((kLeft + (x.is_broken ? x.to : kRight)) / 2, kBottom + 33, "middle", "ns per evaluation", 12) +
+         svg_text(kLeft, kTop - 9, "start", "relative RMS error, down is better", 12);
+}
+
+std::vector<Point> points_of(const FamilyResult& result, std::size_t p) {
+  std::vector<Point> points;
+  for (std::size_t i = 0; i < result.cells.size(); ++i) {
+    const Cell &cell = result.cells[i][p], &timed = cell.one_by_one ? result.cells[i][1] : cell;
+    const Rung& rung = result.family.rungs[i];
+    points.push_back({rung.label + (rung.is_reference ? ", the reference" : ""), std::max(timed.timing.ns, 0.01),
+                      shown_error(result, cell), 0, 0, !cell.dominated_by.empty(), cell.one_by_one});
+  }
+  std::sort(points.begin(), points.end(), [](const Point& a, const Point& b) { return a.time < b.time; });
+  return points;
+}
+
+// A step line down along the forms that are not dominated, which stand in the order of their times.
+std::string front_of(const std::vector<Point>& points) {
+  std::string front;
+  double level = -1;
+  for (const Point& point : points) {
+    if (point.dominated || point.one_by_one || point.y <= level) continue;
+    if (level >= 0) front += number(point.x, 5) + "," + number(level, 5) + " ";
+    front += number(point.x, 5) + "," + number(point.y, 5) + " ";
+    level = point.y;
+  }
+  return "<polyline points=\"" + front +
+         "\" fill=\"none\" stroke=\"#0b5394\" stroke-width=\"1.6\" stroke-opacity=\".5\"/>";
+}
+
+std::string mark_of(const Point& p) {
+  const std::string style = p.dominated || p.one_by_one ? "fill=\"#fff\" stroke=\"#777\" stroke-width=\"1.5\""
+                                                        : "fill=\"#0b5394\" stroke=\"#fff\" stroke-width=\"1\"";
+  if (p.one_by_one)
+    return "<rect x=\"" + number(p.x - kDisc + 1, 5) + "\" y=\"" + number(p.y - kDisc + 1, 5) + "\" width=\"" +
+           number(2 * kDisc - 2) + "\" height=\"" + number(2 * kDisc - 2) + "\" " + style + "/>";
+  return "<circle cx=\"" + number(p.x, 5) + "\" cy=\"" + number(p.y, 5) + "\" r=\"" + number(kDisc) + "\" " + style +
+         "/>";
 }
 
 }  // namespace
 
 std::string pareto_figure(const FamilyResult& result, Precision precision) {
-  const Span x = span_of(result, time_of);
-  Span y = span_of(result, error_of);
-  const bool has_floor = y.low <= std::log10(kLeastError);
-  if (has_floor) y.low = std::log10(kLeastError);
   const std::size_t p = std::size_t(precision);
+  std::vector<Point> points = points_of(result, p);
+  std::vector<double> times, errors;
+  for (const Point& point : points) times.push_back(point.time);
+  for (const auto& cells : result.cells)  // of all precisions: the plots of a family share their errors' axis
+    for (const Cell& cell : cells) errors.push_back(shown_error(result, cell));
+  if (result.noise > 0) errors.push_back(0.7 * result.noise);  // room for the band
+  // The more stand in the strip of the slow, the wider it is.
+  const Axis probe = axis_over(times, false, 1.1, 0.12, kLeft, kRight, 0);
+  const double slow = double(std::count_if(times.begin(), times.end(), [&](double t) { return probe.in_strip(t); }));
+  const Axis x = axis_over(times, false, 1.1, 0.12, kLeft, kRight, std::min(190.0, 60 + 34 * slow));
+  const Axis y = axis_over(errors, true, 1.5, 0.12, kBottom, kTop, slow > 2 ? 110 : 56);
 
-  struct Point {
-    std::size_t rung;
-    double time, error;
-    bool dominated;
-  };
-  std::vector<Point> points;
-  for (std::size_t i = 0; i < result.cells.size(); ++i) {
-    const Cell& cell = result.cells[i][p];
-    points.push_back({i, time_of(cell), error_of(cell), !cell.dominated_by.empty()});
+  for (Point& point : points) {
+    point.x = x.at(point.time), point.y = y.at(point.error);
+    std::string numbers;
+    if (y.in_strip(point.error)) numbers = error_text(point.error);
+    if (x.in_strip(point.time)) numbers += (numbers.empty() ? "" : ", ") + time_text(point.time);
+    point.label = point.name + (numbers.empty() ? "" : " (" + numbers + ")");
   }
-  std::sort(points.begin(), points.end(), [](const Point& a, const Point& b) { return a.time < b.time; });
-
-  std::string front, discs;
-  double level = -1;
-  for (const Point& point : points) {
-    if (point.dominated) continue;
-    const double px = x.at(point.time, kLeft, kRight), py = y.at(point.error, kBottom, kTop);
-    if (level >= 0) front += number(px, 5) + "," + number(level, 5) + " ";
-    front += number(px, 5) + "," + number(py, 5) + " ";
-    level = py;
+  std::string content = frame(x, y);
+  if (result.noise > 0 && !y.in_strip(result.noise)) {
+    const double at = y.at(result.noise);
+    content += "<rect x=\"" + number(kLeft) + "\" y=\"" + number(at, 5) + "\" width=\"" + number(kRight - kLeft) +
+               "\" height=\"" + number(kBottom - at, 5) + "\" fill=\"#b35806\" fill-opacity=\".12\"/>" +
+               svg_text(kLeft + 6, kBottom - 6, "start", "below the noise of the reference", 11);
   }
-  // The dominated first, so that the front lies over them.
-  std::stable_sort(points.begin(), points.end(),
-                   [](const Point& a, const Point& b) { return a.dominated > b.dominated; });
-  for (const Point& point : points) {
-    const double px = x.at(point.time, kLeft, kRight), py = y.at(point.error, kBottom, kTop);
-    const std::string label = std::to_string(point.rung + 1);
-    discs += "<g><title>" + page::escape(result.family.rungs[point.rung].label) + ": " + number(point.time) +
-             " ns, error " + number(point.error) + (point.dominated ? ", dominated" : "") + "</title><circle cx=\"" +
-             number(px, 5) + "\" cy=\"" + number(py, 5) + "\" r=\"8\" fill=\"" +
-             (point.dominated ? "#fff" : "#0b5394") + "\" stroke=\"" + (point.dominated ? "#777" : "#0b5394") + "\"" +
-             (point.dominated ? " stroke-dasharray=\"2 2\"" : "") + "/>" +
-             svg_text(px, py + 3.8, "middle", label, 10.5,
-                      point.dominated ? " style=\"fill:#555\"" : " style=\"fill:#fff;font-weight:700\"") +
-             "</g>";
-  }
-  const std::string title = result.family.title + " in " + std::string(kPrecisionNames[p]) +
-                            ": error against time; the numbers are those of the table.";
-  return page::drawing("0 0 360 276", title,
-                       frame(x, y, has_floor) + "<polyline points=\"" + front +
-                           "\" fill=\"none\" stroke=\"#0b5394\" stroke-width=\"1.4\" stroke-opacity=\".6\"/>" + discs +
-                           svg_text(kRight, kTop - 8, "end", kPrecisionNames[p], 13, " style=\"font-weight:700\""));
+  content += front_of(points);
+  Labels labels(points);
+  std::string marks, names;
+  // The front's names take the nearest places.
+  for (const bool dominated : {false, true})
+    for (const Point& point : points)
+      if ((point.dominated || point.one_by_one) == dominated) names += labels.place(point);
+  for (const Point& point : points)
+    marks += "<g><title>" + page::escape(point.name) + ": " + time_text(point.time) + ", error " +
+             error_text(point.error) + (point.dominated ? ", dominated" : "") +
+             (point.one_by_one ? ", one by one: the time is that of float" : "") + "</title>" + mark_of(point) + "</g>";
+  const std::string name = std::string(kPrecisionNames[p]) + (p == 2 ? " of floats" : "");
+  return page::drawing(
+      "0 0 " + number(kWidth) + " " + number(kHeight), result.family.title + ", " + name + ": error against time.",
+      content + names + marks + svg_text(kRight, kTop - 9, "end", name, 13, " style=\"font-weight:700\""));
 }
 
 }  // namespace likeness::cost

@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <chrono>
 #include <ctime>
+#include <limits>
 #include <memory>
 #include <stdexcept>
 
 namespace likeness::cost {
 namespace {
 
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kMostRows = 1024;  // of a timed block: all columns stay in the L1 or L2 cache
 
 const catalog::Entry& entry_of(const Rung& rung) {
@@ -51,17 +53,29 @@ std::size_t rows_for(const catalog::Entry& entry, const Columns& columns, double
   return rows;
 }
 
-void find_dominated(FamilyResult& result) {
-  const auto& rungs = result.family.rungs;
-  for (std::size_t p = 0; p < 3; ++p)
-    for (std::size_t i = 0; i < rungs.size(); ++i)
-      for (std::size_t k = 0; k < rungs.size(); ++k) {
-        const Cell &a = result.cells[i][p], &b = result.cells[k][p];
-        const bool faster = b.timing.ns < a.timing.ns, no_worse = b.accuracy.rms <= a.accuracy.rms;
-        if (i != k && faster && no_worse && result.cells[i][p].dominated_by.empty())
-          result.cells[i][p].dominated_by = rungs[k].label;
-      }
+// Against what the errors of a family are taken.
+std::vector<double> reference_of(FamilyResult& result, const Draws& draws, const std::vector<Columns>& columns,
+                                 double effort) {
+  const Family& family = result.family;
+  if (family.estimates) {
+    const auto [a, b] = family.estimates(draws.rows, effort);
+    std::vector<double> mean(a.size());
+    for (std::size_t i = 0; i < a.size(); ++i) mean[i] = 0.5 * (a[i] + b[i]);
+    result.noise = accuracy_of(family, draws, a, mean).rms;  // from the mean, each is off by half their difference
+    return mean;
+  }
+  const auto at = std::find_if(family.rungs.begin(), family.rungs.end(), [](const Rung& r) { return r.is_reference; });
+  if (at == family.rungs.end()) throw std::logic_error("the family " + family.name + " has no reference");
+  return values_of(*at, entry_of(*at), draws, columns[std::size_t(at - family.rungs.begin())], Precision::kDouble);
 }
+
+// The shares of a family's draws that a user may ask for end here.
+std::size_t draws_for(const Family& family, double scale) {
+  const std::size_t least = std::min<std::size_t>(64, family.draws);
+  return std::max(least, std::size_t(double(family.draws) * scale));
+}
+
+}  // namespace
 
 std::vector<Family> chosen_families(const std::vector<std::string>& names) {
   std::vector<Family> all = families();
@@ -79,7 +93,17 @@ std::vector<Family> chosen_families(const std::vector<std::string>& names) {
   return chosen;
 }
 
-}  // namespace
+void find_dominated(FamilyResult& result) {
+  const auto& rungs = result.family.rungs;
+  for (std::size_t p = 0; p < 3; ++p)
+    for (std::size_t i = 0; i < rungs.size(); ++i)
+      for (std::size_t k = 0; k < rungs.size(); ++k) {
+        Cell& a = result.cells[i][p];
+        const Cell& b = result.cells[k][p];
+        if (i == k || a.one_by_one || b.one_by_one || !a.dominated_by.empty()) continue;
+        if (b.timing.ns_high < a.timing.ns_low && b.accuracy.rms <= a.accuracy.rms) a.dominated_by = rungs[k].label;
+      }
+}
 
 Study run_study(const Options& options, const std::function<void(const std::string&, double)>& progress) {
   Study study;
@@ -93,27 +117,31 @@ Study run_study(const Options& options, const std::function<void(const std::stri
   std::vector<Task> tasks;
   for (std::size_t f = 0; f < chosen.size(); ++f) {
     const Family& family = chosen[f];
-    if (progress) progress("errors: " + family.title, 0.4 * double(f) / double(chosen.size()));
-    FamilyResult result{family, std::max<std::size_t>(64, std::size_t(double(family.draws) * options.draws_scale)), {}};
+    const double share = 0.4 * double(f) / double(chosen.size());
+    if (progress) progress("errors: " + family.title, share);
+    FamilyResult result{family, draws_for(family, options.draws_scale), 0, {}};
     const Draws draws = draws_of(family, result.draws);
     for (const Rung& rung : family.rungs) columns[f].push_back(columns_of(family, rung, entry_of(rung), draws));
-    const auto at =
-        std::find_if(family.rungs.begin(), family.rungs.end(), [](const Rung& r) { return r.is_reference; });
-    if (at == family.rungs.end()) throw std::logic_error("the family " + family.name + " has no reference");
-    const auto reference =
-        values_of(*at, entry_of(*at), draws, columns[f][std::size_t(at - family.rungs.begin())], Precision::kDouble);
+    const auto reference = reference_of(result, draws, columns[f], std::min(1.0, options.draws_scale));
     for (std::size_t i = 0; i < family.rungs.size(); ++i) {
       const catalog::Entry& entry = entry_of(family.rungs[i]);
-      std::array<Cell, 3> cells;
-      for (const Precision p : {Precision::kDouble, Precision::kFloat, Precision::kBatch}) {
-        const auto values = values_of(family.rungs[i], entry, draws, columns[f][i], p);
-        cells[std::size_t(p)].accuracy = accuracy_of(family, draws, values, reference);
-      }
+      if (progress) progress("errors: " + family.title + ", " + family.rungs[i].label, share);
       const Columns& c = columns[f][i];
       const std::size_t rows = rows_for(entry, c, options.seconds, result.draws);
-      tasks.push_back(task_of(entry, entry.in_double, c.of_double, rows));
-      tasks.push_back(task_of(entry, entry.in_float, c.of_float, rows));
-      tasks.push_back(task_of(entry, entry.in_batches, c.of_float, rows));
+      std::array<Cell, 3> cells;
+      for (const Precision p : {Precision::kDouble, Precision::kFloat, Precision::kBatch}) {
+        Cell& cell = cells[std::size_t(p)];
+        cell.one_by_one = p == Precision::kBatch && entry.one_by_one;
+        if (cell.one_by_one) {
+          cell.accuracy = cells[std::size_t(Precision::kFloat)].accuracy;
+          cell.timing = {kNone, kNone, kNone, kNone, kNone};
+          continue;
+        }
+        cell.accuracy = accuracy_of(family, draws, values_of(family.rungs[i], entry, draws, c, p), reference);
+        tasks.push_back(p == Precision::kDouble  ? task_of(entry, entry.in_double, c.of_double, rows)
+                        : p == Precision::kFloat ? task_of(entry, entry.in_float, c.of_float, rows)
+                                                 : task_of(entry, entry.in_batches, c.of_float, rows));
+      }
       result.cells.push_back(std::move(cells));
     }
     study.families.push_back(std::move(result));
@@ -125,7 +153,8 @@ Study run_study(const Options& options, const std::function<void(const std::stri
   std::size_t at = 0;
   for (FamilyResult& result : study.families) {
     for (auto& cells : result.cells)
-      for (Cell& cell : cells) cell.timing = timings[at++];
+      for (Cell& cell : cells)
+        if (!cell.one_by_one) cell.timing = timings[at++];
     find_dominated(result);
   }
   study.seconds = double(std::clock() - start) / CLOCKS_PER_SEC;

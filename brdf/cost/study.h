@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <functional>
 #include <string>
 #include <vector>
@@ -20,15 +21,18 @@ struct Options {
 
 // One form in one precision.
 struct Cell {
-  Timing timing;
+  Timing timing;  // NaN if one_by_one: what a row costs is what it costs in float
   Accuracy accuracy;
-  // Another form of the family in the same precision that is at once faster and no less exact; empty: none is.
+  bool one_by_one = false;  // a batch that its evaluator takes apart, because it has branches: no form for batches
+  // Another form of the family in the same precision that is no less exact, and faster by more than the quartiles of
+  // both; empty: none is.
   std::string dominated_by;
 };
 
 struct FamilyResult {
   Family family;
   std::size_t draws = 0;
+  double noise = 0;  // of a random reference: its RMS over the reference's. Smaller errors cannot be told from 0.
   std::vector<std::array<Cell, 3>> cells;  // one for each rung; double, float, batch
 };
 
@@ -39,8 +43,15 @@ struct Study {
   std::vector<FamilyResult> families;
 };
 
-// `progress` is told what is being done and the share of all that is done. Throws std::invalid_argument for a family
-// that there is not.
+// Marks the forms of a family to which another is preferable, one precision at a time.
+void find_dominated(FamilyResult& result);
+
+// The families of these names, all if there are none. Throws std::invalid_argument for a family that there is not, and
+// names those that there are.
+std::vector<Family> chosen_families(const std::vector<std::string>& names);
+
+// `progress` is told what is being done and the share of all that is done; what it throws ends the study. Throws
+// as chosen_families does.
 Study run_study(const Options& options, const std::function<void(const std::string&, double)>& progress);
 
 // One line for each form and precision.

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -21,30 +22,73 @@ std::string cell(const std::string& text) {
   return out + "\"";
 }
 
+// Code points, not bytes, are what a terminal shows.
+std::size_t shown_width(const std::string& text) {
+  return std::size_t(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xc0) != 0x80; }));
+}
+
 std::string padded(const std::string& text, std::size_t width, bool right) {
-  // Code points, not bytes, are what a terminal shows.
-  std::size_t shown = 0;
-  for (const char c : text) shown += (static_cast<unsigned char>(c) & 0xc0) != 0x80;
-  const std::string space(shown < width ? width - shown : 0, ' ');
+  const std::string space(width - std::min(width, shown_width(text)), ' ');
   return right ? space + text : text + space;
+}
+
+// Columns as wide as what is in them, two spaces apart; the first to the left.
+std::string aligned(const std::vector<std::vector<std::string>>& rows) {
+  std::vector<std::size_t> widths(rows.front().size());
+  for (const auto& row : rows)
+    for (std::size_t k = 0; k < row.size(); ++k) widths[k] = std::max(widths[k], shown_width(row[k]));
+  std::string out;
+  for (const auto& row : rows) {
+    std::string line;
+    for (std::size_t k = 0; k < row.size(); ++k) line += "  " + padded(row[k], widths[k], k > 0);
+    out += line + "\n";
+  }
+  return out;
+}
+
+std::string table_of(const FamilyResult& result) {
+  const bool has_energy = bool(result.family.energy_weight);
+  std::vector<std::vector<std::string>> rows{{"", "double ns", "float ns", "batch ns", "spread", "rms error", "worst"}};
+  if (has_energy) rows[0].push_back(result.family.energy_name);
+  for (std::size_t i = 0; i < result.cells.size(); ++i) {
+    const auto& c = result.cells[i];
+    const Rung& rung = result.family.rungs[i];
+    std::vector<std::string> row{rung.label + (rung.is_reference ? " (reference)" : "")};
+    for (const Cell& x : c)
+      row.push_back(x.one_by_one ? "one by one " : digits(x.timing.ns) + (x.dominated_by.empty() ? " " : "*"));
+    const Timing& spread = c[2].one_by_one ? c[1].timing : c[2].timing;
+    row.push_back(digits(100 * (spread.ns_high - spread.ns_low) / spread.ns, 2) + "%");
+    row.push_back(digits(c[2].accuracy.rms));
+    row.push_back(digits(c[2].accuracy.worst));
+    if (has_energy) row.push_back(digits(c[2].accuracy.energy));
+    rows.push_back(std::move(row));
+  }
+  std::string out = "\n" + result.family.title + " (" + result.family.name + "), errors of " + result.family.compared +
+                    "\n" + aligned(rows);
+  if (result.noise > 0) out += "  The reference is random: its own rms error is " + digits(result.noise, 2) + ".\n";
+  return out;
 }
 
 }  // namespace
 
 std::string csv_of(const Study& study) {
   std::string out =
-      "family,form,evaluator,precision,ns,ns_quartile_1,ns_quartile_3,instructions,cycles,rms_error,worst_error,"
-      "energy_error,worst_at,dominated_by,machine,instruction_set\n";
+      "family,form,evaluator,precision,loop,ns,ns_quartile_1,ns_quartile_3,instructions,cycles,rms_error,worst_error,"
+      "energy_error,noise,worst_at,dominated_by,machine,instruction_set\n";
   for (const FamilyResult& result : study.families)
     for (std::size_t i = 0; i < result.cells.size(); ++i)
       for (std::size_t p = 0; p < 3; ++p) {
         const Rung& rung = result.family.rungs[i];
         const Cell& c = result.cells[i][p];
         out += result.family.name + "," + cell(rung.label) + "," + rung.evaluator + "," +
-               std::string(kPrecisionNames[p]) + "," + digits(c.timing.ns, 5) + "," + digits(c.timing.ns_low, 5) + "," +
-               digits(c.timing.ns_high, 5) + "," + digits(c.timing.instructions, 5) + "," + digits(c.timing.cycles, 5) +
-               "," + digits(c.accuracy.rms, 5) + "," + digits(c.accuracy.worst, 5) + "," +
-               digits(c.accuracy.energy, 5) + "," + cell(c.accuracy.where) + "," + cell(c.dominated_by) + "," +
+               std::string(kPrecisionNames[p]) + "," +
+               (c.one_by_one ? "one by one"
+                : p == 2     ? "batches"
+                             : "scalar") +
+               "," + digits(c.timing.ns, 5) + "," + digits(c.timing.ns_low, 5) + "," + digits(c.timing.ns_high, 5) +
+               "," + digits(c.timing.instructions, 5) + "," + digits(c.timing.cycles, 5) + "," +
+               digits(c.accuracy.rms, 5) + "," + digits(c.accuracy.worst, 5) + "," + digits(c.accuracy.energy, 5) +
+               "," + digits(result.noise, 3) + "," + cell(c.accuracy.where) + "," + cell(c.dominated_by) + "," +
                cell(study.machine.processor) + "," + study.machine.instruction_set + "\n";
       }
   return out;
@@ -54,22 +98,10 @@ std::string table_of(const Study& study) {
   std::string out = study.machine.processor + ", batches: " + study.machine.instruction_set + ", " +
                     digits(study.machine.gflops) + " GFLOP/s of multiply-adds, " + digits(study.machine.exps) +
                     " exp/ns, in this run on one core\n";
-  for (const FamilyResult& result : study.families) {
-    out += "\n" + result.family.title + " (" + result.family.name + ")\n" + padded("", 34, false) +
-           padded("double ns", 12, true) + padded("float ns", 12, true) + padded("batch ns", 12, true) +
-           padded("spread", 8, true) + padded("rms error", 11, true) + padded("worst", 10, true) +
-           padded(result.family.energy_weight ? result.family.energy_name : "", 12, true) + "\n";
-    for (std::size_t i = 0; i < result.cells.size(); ++i) {
-      const auto& c = result.cells[i];
-      out += padded("  " + result.family.rungs[i].label + (result.family.rungs[i].is_reference ? " (reference)" : ""),
-                    34, false);
-      for (const Cell& x : c) out += padded(digits(x.timing.ns) + (x.dominated_by.empty() ? "" : "*"), 12, true);
-      out += padded(digits(100 * (c[2].timing.ns_high - c[2].timing.ns_low) / c[2].timing.ns, 2) + "%", 8, true) +
-             padded(digits(c[2].accuracy.rms), 11, true) + padded(digits(c[2].accuracy.worst), 10, true) +
-             padded(digits(c[2].accuracy.energy), 12, true) + "\n";
-    }
-  }
-  return out + "\nErrors and spread are those of the batches. * another form is faster and no less exact.\n";
+  for (const FamilyResult& result : study.families) out += table_of(result);
+  return out +
+         "\nErrors and spread are those of the batches. * another form is faster and no less exact. 'one by one': the "
+         "evaluator\nhas branches and no form for batches.\n";
 }
 
 }  // namespace likeness::cost
