@@ -133,36 +133,76 @@ struct Callisto {
     X fresnel;  // weight of the specular's rise to white [0, 1]; falloff n_s
   };
 
+  // What a material may do without: left out, its f is the same to the last bit as long as the parameters that a part
+  // reads are at their neutral values (parts() says which are not). A renderer has a kernel for each set of parts.
+  enum Part : unsigned {
+    kDiffuse = 1,      // not all metal, not black
+    kRise = 2,         // diffuse_fresnel is not 1
+    kRetro = 4,        // retroreflection is not 1
+    kTerminator = 8,   // smooth_terminator is not 0
+    kFalloff = 16,     // specular_fresnel_falloff is not 0.5
+    kSecondLobe = 32,  // dual_specular_opacity is not 0
+    kAllParts = 63
+  };
+  // The parts that f needs. Scalars that compare as one: numbers. `is_fixed(name)` says whether a parameter has its value
+  // everywhere; one that has not needs its part.
+  template <class F>
+  unsigned parts(F&& is_fixed) const {
+    const auto rest = [&](bool is_neutral, auto... names) { return is_neutral && (is_fixed(names) && ...); };
+    const auto all = [](const Rgb<S>& c, double x) { return c.r == S(x) && c.g == S(x) && c.b == S(x); };
+    unsigned parts = 0;
+    if (!rest(metallic == S(1), "metallic") && !rest(all(base_color, 0), "base_color")) {
+      parts |= kDiffuse;
+      if (!rest(all(diffuse_fresnel_tint * diffuse_fresnel, 1), "diffuse_fresnel", "diffuse_fresnel_tint"))
+        parts |= kRise;
+      if (!rest(all(retroreflection_tint * retroreflection, 1), "retroreflection", "retroreflection_tint"))
+        parts |= kRetro;
+    }
+    if (!rest(all(smooth_terminator_tint * smooth_terminator, 0), "smooth_terminator", "smooth_terminator_tint"))
+      parts |= kTerminator;
+    if (!rest(specular_fresnel_falloff == S(0.5), "specular_fresnel_falloff")) parts |= kFalloff;
+    if (!rest(dual_specular_opacity == S(0), "dual_specular_opacity")) parts |= kSecondLobe;
+    return parts;
+  }
+
   // The alpha of the second lobe.
   S second_alpha() const { return alpha_of_roughness(smaller(S(roughness * dual_specular_roughness_scale), S(1))); }
 
-  // Needs both directions above the horizon; elsewhere finite and meaningless.
-  template <Scalar T>
+  // Needs both directions above the horizon; elsewhere finite and meaningless. Terms of parts that are left out are not
+  // written.
+  template <unsigned kParts = kAllParts, Scalar T>
   Terms<S> terms(const Geometry<T>& g) const {
     Terms<S> t;
-    diffuse_terms(g, t);
-    specular_terms(g, t);
-    shade_term(g, t);
+    diffuse_terms<kParts>(g, t);
+    specular_terms<kParts>(g, t);
+    if constexpr ((kParts & kTerminator) != 0) shade_term(g, t);
     return t;
   }
-  template <Scalar T>
+  template <unsigned kParts = kAllParts, Scalar T>
   void diffuse_terms(const Geometry<T>& g, Terms<S>& t) const {
-    t.rise =
-        power5(g.versine_d, remap(diffuse_fresnel_falloff)) * power5(g.cos_h, remap(diffuse_fresnel_tangent_falloff));
-    t.retro =
-        power5(g.versine_h, remap(retroreflection_falloff)) * power5(g.cos_d, remap(retroreflection_tangent_falloff));
+    if constexpr ((kParts & kRise) != 0)
+      t.rise =
+          power5(g.versine_d, remap(diffuse_fresnel_falloff)) * power5(g.cos_h, remap(diffuse_fresnel_tangent_falloff));
+    if constexpr ((kParts & kRetro) != 0)
+      t.retro =
+          power5(g.versine_h, remap(retroreflection_falloff)) * power5(g.cos_d, remap(retroreflection_tangent_falloff));
   }
-  template <Scalar T>
+  template <unsigned kParts = kAllParts, Scalar T>
   void specular_terms(const Geometry<T>& g, Terms<S>& t) const {
     const T cos_i = pick(g.above, g.cos_i, T(1)), cos_o = pick(g.above, g.cos_o, T(1));
     const S alpha = alpha_of_roughness(roughness);
-    const S alpha_2 = second_alpha();
-    t.lobe = mix(S(ggx_distribution(alpha, g.cos_h, g.sin2_h) * ggx_visibility(alpha, cos_i, cos_o)),
-                 S(ggx_distribution(alpha_2, g.cos_h, g.sin2_h) * ggx_visibility(alpha_2, cos_i, cos_o)),
-                 dual_specular_opacity);
-
-    const S r = remap(specular_fresnel_falloff);
-    t.fresnel = clamp01(S(S(2) - r)) * power5(g.versine_d, r);
+    t.lobe = ggx_distribution(alpha, g.cos_h, g.sin2_h) * ggx_visibility(alpha, cos_i, cos_o);
+    if constexpr ((kParts & kSecondLobe) != 0) {
+      const S alpha_2 = second_alpha();
+      t.lobe = mix(t.lobe, S(ggx_distribution(alpha_2, g.cos_h, g.sin2_h) * ggx_visibility(alpha_2, cos_i, cos_o)),
+                   dual_specular_opacity);
+    }
+    if constexpr ((kParts & kFalloff) != 0) {
+      const S r = remap(specular_fresnel_falloff);
+      t.fresnel = clamp01(S(S(2) - r)) * power5(g.versine_d, r);
+    } else {
+      t.fresnel = S(schlick_weight(g.versine_d));
+    }
   }
   // 1 - alpha_s (1 - smoothstep(0, end, cos_i)), where alpha_s = (1 - a) (1 - b): written as a sum of positive terms,
   // which keeps its digits where it vanishes, and so that end = 0 is a step and not 0 / 0.
@@ -178,11 +218,14 @@ struct Callisto {
   }
 
   // c1 times the diffuse of one channel, whose shape is Lambert's 1 / pi or what stands in its place.
-  template <Scalar X>
+  template <unsigned kParts = kAllParts, Scalar X>
   static X diffuse_part(const Terms<X>& t, const X& metallic, const X& rho, const X& rho_f, const X& rho_r,
                         const X& shape) {
     const X diffuse = rho * (X(1) - metallic) * shape;
-    const X c1 = (X(1) + (rho_f - X(1)) * t.rise) * (X(1) + (rho_r - X(1)) * t.retro);
+    if constexpr ((kParts & (kRise | kRetro)) == 0) return diffuse;
+    X c1(1.0);
+    if constexpr ((kParts & kRise) != 0) c1 = X(1) + (rho_f - X(1)) * t.rise;
+    if constexpr ((kParts & kRetro) != 0) c1 = c1 * (X(1) + (rho_r - X(1)) * t.retro);
     return c1 * diffuse;
   }
   // f_ggx of one channel.
@@ -192,11 +235,13 @@ struct Callisto {
     return mix(f0, X(1), t.fresnel) * t.lobe;
   }
   // One channel of f from its terms and that channel's reflectance and intensities.
-  template <Scalar X>
+  template <unsigned kParts = kAllParts, Scalar X>
   static X combine(const Terms<X>& t, const X& metallic, const X& specular, const X& rho, const X& rho_f,
                    const X& rho_r, const X& o, const X& shape = constant<X>(std::numbers::inv_pi)) {
-    const X c2 = mix(X(1), t.shade, o);
-    return (diffuse_part(t, metallic, rho, rho_f, rho_r, shape) + specular_part(t, metallic, specular, rho)) * c2;
+    X f = specular_part(t, metallic, specular, rho);
+    if constexpr ((kParts & kDiffuse) != 0) f = diffuse_part<kParts>(t, metallic, rho, rho_f, rho_r, shape) + f;
+    if constexpr ((kParts & kTerminator) != 0) f = f * mix(X(1), t.shade, o);
+    return f;
   }
 
   // Calls channel(rho, rho_f, rho_r, o) for red, green and blue.
@@ -209,35 +254,56 @@ struct Callisto {
             channel(base_color.b, rho_f.b, rho_r.b, o.b)};
   }
   // f from terms and the shape of the diffuse; 0 where the mask does not hold.
-  template <class M>
+  template <unsigned kParts = kAllParts, class M>
   Rgb<S> combined(const M& above, const Terms<S>& t, const S& shape) const {
     return for_channels([&](const S& rho, const S& rho_f, const S& rho_r, const S& o) {
-      return S(pick(above, combine(t, metallic, specular, rho, rho_f, rho_r, o, shape), S(0)));
+      return S(pick(above, combine<kParts>(t, metallic, specular, rho, rho_f, rho_r, o, shape), S(0)));
     });
   }
 
-  template <Scalar T>
+  template <unsigned kParts = kAllParts, Scalar T>
   Rgb<S> eval(const Geometry<T>& g) const {
-    return combined(g.above, terms(g), constant<S>(std::numbers::inv_pi));
+    return combined<kParts>(g.above, terms<kParts>(g), constant<S>(std::numbers::inv_pi));
   }
   Rgb<S> eval(const Vec3<S>& to_light, const Vec3<S>& to_view) const { return eval(Geometry<S>(to_light, to_view)); }
 
   // What is sampled: the diffuse by its cosine, each GGX lobe by its normals, in proportion to estimates of what they
   // return to this view. The diffuse rises are taken where they peak, in the mirror direction and towards the viewer;
   // their mean and not their product, because one has faded where the other peaks.
-  Mixture<S, CosineLobe<S>, GgxLobe<S>, GgxLobe<S>> lobes(const Vec3<S>& to_view) const {
-    const S versine = S(1) - clamp01(to_view.z), r = remap(specular_fresnel_falloff);
-    const S rise = power5(versine, remap(diffuse_fresnel_falloff));
-    const S retro = power5(versine, remap(retroreflection_falloff));
-    const S rho = mean(base_color);
-    const S facing = mix(S(1), S(diffuse_fresnel * mean(diffuse_fresnel_tint)), rise);
-    const S backwards = mix(S(1), S(retroreflection * mean(retroreflection_tint)), retro);
-    const S diffuse = rho * (S(1) - metallic) * S(0.5) * (facing + backwards);
-    const S f0 = mix(S(constant<S>(0.08) * specular), rho, metallic);
-    const S glossy = mix(f0, S(1), S(clamp01(S(S(2) - r)) * power5(usual_versine(to_view), r)));
-    return Mixture<S, CosineLobe<S>, GgxLobe<S>, GgxLobe<S>>(
-        {diffuse, glossy * (S(1) - dual_specular_opacity), glossy * dual_specular_opacity}, {},
-        GgxLobe<S>(alpha_of_roughness(roughness)), GgxLobe<S>(second_alpha()));
+  template <unsigned kParts = kAllParts>
+  auto lobes(const Vec3<S>& to_view) const {
+    const S f0 = mix(S(constant<S>(0.08) * specular), mean(base_color), metallic);
+    S glossy;
+    if constexpr ((kParts & kFalloff) != 0) {
+      const S r = remap(specular_fresnel_falloff);
+      glossy = mix(f0, S(1), S(clamp01(S(S(2) - r)) * power5(usual_versine(to_view), r)));
+    } else {
+      glossy = mix(f0, S(1), S(schlick_weight(usual_versine(to_view))));
+    }
+    const GgxLobe<S> first(alpha_of_roughness(roughness));
+    if constexpr ((kParts & kSecondLobe) != 0) {
+      const GgxLobe<S> second(second_alpha());
+      const S most = glossy * (S(1) - dual_specular_opacity), rest = glossy * dual_specular_opacity;
+      if constexpr ((kParts & kDiffuse) == 0) return Mixture<S, GgxLobe<S>, GgxLobe<S>>({most, rest}, first, second);
+      else
+        return Mixture<S, CosineLobe<S>, GgxLobe<S>, GgxLobe<S>>({diffuse_energy<kParts>(to_view), most, rest}, {},
+                                                                 first, second);
+    } else {
+      if constexpr ((kParts & kDiffuse) == 0) return first;
+      else return Mixture<S, CosineLobe<S>, GgxLobe<S>>({diffuse_energy<kParts>(to_view), glossy}, {}, first);
+    }
+  }
+  template <unsigned kParts>
+  S diffuse_energy(const Vec3<S>& to_view) const {
+    const S versine = S(1) - clamp01(to_view.z);
+    S facing(1.0), backwards(1.0);
+    if constexpr ((kParts & kRise) != 0)
+      facing =
+          mix(S(1), S(diffuse_fresnel * mean(diffuse_fresnel_tint)), power5(versine, remap(diffuse_fresnel_falloff)));
+    if constexpr ((kParts & kRetro) != 0)
+      backwards =
+          mix(S(1), S(retroreflection * mean(retroreflection_tint)), power5(versine, remap(retroreflection_falloff)));
+    return mean(base_color) * (S(1) - metallic) * S(0.5) * (facing + backwards);
   }
   Sample<S> sample(const Vec3<S>& to_view, const S& choice, const S& u, const S& v) const {
     return sample_lobes(*this, to_view, choice, u, v);
