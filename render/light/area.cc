@@ -1,0 +1,144 @@
+#include "render/light/area.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <glm/geometric.hpp>
+
+#include "render/ray/frame.h"
+
+namespace likeness::light {
+namespace {
+
+constexpr float kPi = std::numbers::pi_v<float>;
+
+// A point of a flat light as seen from `point`.
+Towards towards(const glm::vec3& point, const glm::vec3& on_light, const glm::vec3& normal, float area,
+                bool is_two_sided) {
+  const glm::vec3 way = on_light - point;
+  const float distance2 = glm::dot(way, way), distance = std::sqrt(distance2);
+  if (!(distance > 0)) return {};
+  const glm::vec3 direction = way / distance;
+  const float facing = -glm::dot(direction, normal), cosine = is_two_sided ? std::abs(facing) : facing;
+  if (!(cosine > 0)) return {};
+  return {direction, distance, distance2 / (cosine * area)};
+}
+
+// The rectangle in the frame of a point, and what of it the sampling needs. In double: the angles are differences of
+// nearly equal ones for a light far away.
+struct SphericalRectangle {
+  glm::dvec3 x, y, z;
+  double x0, x1, y0, y1, y0_2, y1_2, z0, z0_2;
+  double b0, b1, b0_2, k, solid_angle;
+
+  SphericalRectangle(const scene::RectangleLight& light, const glm::vec3& point) {
+    const glm::dvec3 u(light.half_u), v(light.half_v);
+    x = glm::normalize(u), y = glm::normalize(v), z = glm::cross(x, y);
+    const glm::dvec3 corner = glm::dvec3(light.center) - u - v - glm::dvec3(point);
+    z0 = glm::dot(corner, z);
+    if (z0 > 0) z = -z, z0 = -z0;
+    x0 = glm::dot(corner, x), y0 = glm::dot(corner, y);
+    x1 = x0 + 2 * glm::length(u), y1 = y0 + 2 * glm::length(v);
+    z0_2 = z0 * z0, y0_2 = y0 * y0, y1_2 = y1 * y1;
+    // The normals of the four planes through the point and an edge; each has one component that matters.
+    const double n0 = -z0 == 0 && y0 == 0 ? 0 : y0 / std::sqrt(z0_2 + y0_2);
+    const double n1 = x1 / std::sqrt(z0_2 + x1 * x1);
+    const double n2 = y1 / std::sqrt(z0_2 + y1_2);
+    const double n3 = x0 / std::sqrt(z0_2 + x0 * x0);
+    // Angles within the spherical quadrilateral. With unit normals (0, z0, -y0), (-z0, 0, x1), (0, -z0, y1), (z0, 0, -x0).
+    const double g0 = std::acos(std::clamp(n0 * n1, -1.0, 1.0)), g1 = std::acos(std::clamp(-n1 * n2, -1.0, 1.0));
+    const double g2 = std::acos(std::clamp(n2 * n3, -1.0, 1.0)), g3 = std::acos(std::clamp(-n3 * n0, -1.0, 1.0));
+    b0 = -n0, b1 = n2, b0_2 = b0 * b0;
+    k = 2 * std::numbers::pi - g2 - g3;
+    solid_angle = g0 + g1 - k;
+  }
+};
+
+float area_of(const scene::RectangleLight& light) { return 4 * glm::length(light.half_u) * glm::length(light.half_v); }
+glm::vec3 normal_of(const scene::RectangleLight& light) {
+  return glm::normalize(glm::cross(light.half_u, light.half_v));
+}
+// From so far away that all of it is seen at the same angle, by its area.
+bool is_far(const scene::RectangleLight& light, const glm::vec3& point) {
+  const glm::vec3 way = light.center - point;
+  return area_of(light) < 1e-4f * glm::dot(way, way);
+}
+bool is_behind(const scene::RectangleLight& light, const glm::vec3& point) {
+  return !light.two_sided && glm::dot(point - light.center, normal_of(light)) <= 0;
+}
+
+}  // namespace
+
+Towards sample_rectangle(const scene::RectangleLight& light, const glm::vec3& point, const glm::vec2& u) {
+  if (is_behind(light, point)) return {};
+  if (is_far(light, point)) {
+    const glm::vec3 on_light = light.center + (2 * u.x - 1) * light.half_u + (2 * u.y - 1) * light.half_v;
+    return towards(point, on_light, normal_of(light), area_of(light), light.two_sided);
+  }
+  const SphericalRectangle r(light, point);
+  if (!(r.solid_angle > 0) || r.z0 == 0) return {};
+  const double a = static_cast<double>(u.x) * r.solid_angle + r.k;
+  const double fu = (std::cos(a) * r.b0 - r.b1) / std::sin(a);
+  const double cu = std::clamp(std::copysign(1.0, fu) / std::sqrt(fu * fu + r.b0_2), -1.0, 1.0);
+  const double xu = std::clamp(-(cu * r.z0) / std::sqrt(std::max(1 - cu * cu, 1e-300)), r.x0, r.x1);
+  const double d2 = xu * xu + r.z0_2;
+  const double h0 = r.y0 / std::sqrt(d2 + r.y0_2), h1 = r.y1 / std::sqrt(d2 + r.y1_2);
+  const double h = h0 + static_cast<double>(u.y) * (h1 - h0), h2 = h * h;
+  const double yv = h2 < 1 - 1e-12 ? std::clamp(h * std::sqrt(d2 / (1 - h2)), r.y0, r.y1) : r.y1;
+  const glm::dvec3 way = xu * r.x + yv * r.y + r.z0 * r.z;
+  const double distance = glm::length(way);
+  if (!(distance > 0)) return {};
+  return {glm::vec3(way / distance), static_cast<float>(distance), static_cast<float>(1 / r.solid_angle)};
+}
+
+float rectangle_pdf(const scene::RectangleLight& light, const glm::vec3& point, const glm::vec3& direction,
+                    float distance) {
+  if (is_behind(light, point)) return 0;
+  if (is_far(light, point)) {
+    const float cosine = std::abs(glm::dot(direction, normal_of(light)));
+    return cosine > 0 ? distance * distance / (cosine * area_of(light)) : 0.0f;
+  }
+  const SphericalRectangle r(light, point);
+  return r.solid_angle > 0 && r.z0 != 0 ? static_cast<float>(1 / r.solid_angle) : 0.0f;
+}
+
+Towards sample_disk(const scene::DiskLight& light, const glm::vec3& point, const glm::vec2& u) {
+  const ray::Frame frame(light.normal);
+  const float radius = light.radius * std::sqrt(u.x), angle = 2 * kPi * u.y;
+  const glm::vec3 on_light = light.center + radius * (std::cos(angle) * frame.x + std::sin(angle) * frame.y);
+  return towards(point, on_light, light.normal, kPi * light.radius * light.radius, light.two_sided);
+}
+float disk_pdf(const scene::DiskLight& light, const glm::vec3&, const glm::vec3& direction, float distance) {
+  const float facing = -glm::dot(direction, light.normal), cosine = light.two_sided ? std::abs(facing) : facing;
+  return cosine > 0 ? distance * distance / (cosine * kPi * light.radius * light.radius) : 0.0f;
+}
+
+namespace {
+// 1 - cos of half the cone's angle, without the cancellation of a sphere far away; 0: the point is inside.
+float versine_of_cone(const scene::SphereLight& light, float distance2) {
+  const float radius2 = light.radius * light.radius;
+  if (!(distance2 > radius2)) return 0;
+  const float sin2 = radius2 / distance2;
+  return sin2 / (1 + std::sqrt(1 - sin2));
+}
+}  // namespace
+
+Towards sample_sphere(const scene::SphereLight& light, const glm::vec3& point, const glm::vec2& u) {
+  const glm::vec3 way = light.center - point;
+  const float distance2 = glm::dot(way, way), versine = versine_of_cone(light, distance2);
+  if (!(versine > 0)) return {};
+  const float distance = std::sqrt(distance2);
+  const ray::Frame frame(way / distance);
+  const float v = u.x * versine, cosine = 1 - v, sine = std::sqrt(std::max(v * (2 - v), 0.0f)), angle = 2 * kPi * u.y;
+  const glm::vec3 direction = frame.world({sine * std::cos(angle), sine * std::sin(angle), cosine});
+  const float across2 = light.radius * light.radius - distance2 * sine * sine;  // of the half chord
+  return {direction, distance * cosine - std::sqrt(std::max(across2, 0.0f)), 1 / (2 * kPi * versine)};
+}
+float sphere_pdf(const scene::SphereLight& light, const glm::vec3& point) {
+  const glm::vec3 way = light.center - point;
+  const float versine = versine_of_cone(light, glm::dot(way, way));
+  return versine > 0 ? 1 / (2 * kPi * versine) : 0.0f;
+}
+
+}  // namespace likeness::light
