@@ -1,0 +1,94 @@
+#include "render/scene/loading.h"
+
+#include <cmath>
+
+#include "render/files/files.h"
+#include "render/scene/ies.h"
+
+namespace likeness::scene {
+namespace {
+
+constexpr float kLargestHalf = 65504;  // what infinity becomes: the largest that an EXR of halves holds
+constexpr float kBrightest = 1e12f;
+
+struct Mended {
+  std::size_t not_numbers = 0, infinite = 0;
+};
+
+Mended mend(std::vector<float>& texels) {
+  Mended count;
+  for (float& x : texels) {
+    if (std::abs(x) <= kBrightest) continue;
+    if (std::isnan(x)) {
+      x = 0;
+      ++count.not_numbers;
+    } else {
+      x = std::copysign(std::isinf(x) ? kLargestHalf : kBrightest, x);
+      ++count.infinite;
+    }
+  }
+  return count;
+}
+
+std::size_t lift_negative(std::vector<float>& texels) {
+  std::size_t count = 0;
+  for (float& x : texels)
+    if (x < 0) {
+      x = 0;
+      ++count;
+    }
+  return count;
+}
+
+}  // namespace
+
+template <class Read>
+Index Loading::once(const std::string& key, bool is_light, Read&& read) {
+  auto [at, fresh] = images_.try_emplace(key, kNone);
+  if (fresh) {
+    Image image{key, read()};
+    const image::Texels& t = image.texels;
+    if (t.width < 1 || t.height < 1 || t.channels < 1 || t.channels > 4 ||
+        t.count() * static_cast<std::size_t>(t.channels) != t.bytes.size() + t.floats.size())
+      throw files::InputError(key + ": holds no picture");
+    texel_bytes_ += t.bytes.size() + 4 * t.floats.size();
+    if (texel_bytes_ > kMostTexelBytes)
+      throw files::InputError(key +
+                              ": with it the pictures of the scene take more than 16 GB of memory; use smaller ones");
+    const Mended mended = mend(image.texels.floats);
+    if (mended.not_numbers) repair("texels that are no numbers made 0", key, mended.not_numbers);
+    if (mended.infinite) repair("texels without bound made finite", key, mended.infinite);
+    at->second = static_cast<Index>(scene_.images.size());
+    scene_.images.push_back(std::move(image));
+  }
+  if (is_light)
+    if (const std::size_t count = lift_negative(scene_.images[at->second].texels.floats))
+      repair("negative texels of light made 0", key, count);
+  return at->second;
+}
+
+Index Loading::image(const std::filesystem::path& file, bool is_light) {
+  return once(file.lexically_normal().string(), is_light, [&] { return access_.texels(file); });
+}
+
+Index Loading::image(std::string_view encoded, const std::string& name, bool is_light) {
+  return once(name, is_light, [&] { return access_.decode(encoded, name); });
+}
+
+Index Loading::profile(const std::filesystem::path& file) {
+  const std::string key = file.lexically_normal().string();
+  auto [at, fresh] = profiles_.try_emplace(key, kNone);
+  if (fresh) {
+    scene_.profiles.push_back(profile_of(access_.bytes(file, kMostProfileBytes), key));
+    at->second = static_cast<Index>(scene_.profiles.size() - 1);
+  }
+  return at->second;
+}
+
+void Loading::repair(const std::string& what, const std::string& where, std::size_t count) {
+  const auto [at, fresh] = repairs_.try_emplace({what, where}, scene_.repairs.size());
+  if (fresh) scene_.repairs.push_back({what, where, 0});
+  scene_.repairs[at->second].count += count;
+}
+
+}  // namespace likeness::scene
