@@ -230,9 +230,28 @@ struct RoughnessNearNormalLength {
   }
 };
 
+// With fewer steps of the iteration.
+template <int kSteps>
+struct RoughnessInSteps {
+  static_assert(kSteps == 1 || kSteps == 2);
+  static constexpr std::string_view kName =
+      kSteps == 1 ? "roughness_from_normal_length_1" : "roughness_from_normal_length_2";
+  static constexpr std::string_view kText =
+      kSteps == 1 ? "the same by one step of Newton's method" : "the same by two steps of Newton's method";
+  static constexpr std::size_t kFeatures = 1;
+  static constexpr const auto& kOutputs = RoughnessFromNormalLength::kOutputs;
+  using Forms = RoughnessFromNormalLength::Forms;
+  template <Scalar S>
+  static void evaluate(const S* f, S* out) {
+    out[1] = alpha_of_normal_deficit<kSteps>(f[0]);
+    out[0] = safe_sqrt(out[1]);
+  }
+};
+
 using SurfaceEvaluators =
     std::tuple<Surface<Lambert>, Surface<OrenNayar>, Surface<OrenNayar1994>, BurleyDiffuseRow, Surface<Disney2012>,
                Surface<Ggx>, GgxD, Surface<Callisto>, ProximaRow, SurfaceWithCosine<CallistoProxima>, DualNormal,
-               NormalLength, RoughnessFromNormalLength, RoughnessNearNormalLength>;
+               NormalLength, RoughnessFromNormalLength, RoughnessInSteps<1>, RoughnessInSteps<2>,
+               RoughnessNearNormalLength>;
 
 }  // namespace likeness::brdf

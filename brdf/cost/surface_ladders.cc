@@ -179,7 +179,12 @@ Family normal_length_family() {
   const auto set = [](const double* d, Inputs& in) { in.set("length", d[0]); };
   family.rungs = {
       {.label = "leading term", .evaluator = "roughness_near_normal_length", .inputs = set, .output = "alpha"},
-      {.label = "three steps of Newton's method",
+      {.label = "one step of Newton's method",
+       .evaluator = "roughness_from_normal_length_1",
+       .inputs = set,
+       .output = "alpha"},
+      {.label = "two steps", .evaluator = "roughness_from_normal_length_2", .inputs = set, .output = "alpha"},
+      {.label = "three steps",
        .evaluator = "roughness_from_normal_length",
        .inputs = set,
        .output = "alpha",
@@ -193,15 +198,14 @@ Family tonemap_family() {
   family.name = "tonemap";
   family.title = "GT tonemapper";
   family.text =
-      "The curve of Gran Turismo (Uchimura 2017) at its defaults. There is one form of it: a power for the toe and an "
-      "exponential for the shoulder, both computed and one kept.";
+      "The curve of Gran Turismo (Uchimura 2017) at its defaults: a power for the toe and an exponential for the "
+      "shoulder, both computed and one kept; or a table of 512 values over the logarithm of the light.";
   family.distribution = "luminance logarithmic in [1e-3, 30]";
   family.draw_names = {"x"};
   family.draw = [](Random& random, double* draw) { draw[0] = 1e-3 * std::pow(3e4, random.uniform()); };
-  family.rungs = {{.label = "exact",
-                   .evaluator = "gt_tonemap",
-                   .inputs = [](const double* d, Inputs& in) { in.set("x", d[0]); },
-                   .is_reference = true}};
+  const auto set = [](const double* d, Inputs& in) { in.set("x", d[0]); };
+  family.rungs = {{.label = "table", .evaluator = "gt_tonemap_table", .inputs = set},
+                  {.label = "exact", .evaluator = "gt_tonemap", .inputs = set, .is_reference = true}};
   return family;
 }
 

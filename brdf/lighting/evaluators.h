@@ -7,7 +7,8 @@
 // What brdf/lighting computes, as rows of `likeness eval`.
 namespace likeness::brdf {
 
-using LightingEvaluators = std::tuple<PlainSphericalGaussian, WindowedSphericalGaussian, SphericalGaussianProduct,
-                                      ShValue, ShBasis, ShRotated, ShCompressed, Tonemap, TonemapInverse, ExposureZone>;
+using LightingEvaluators =
+    std::tuple<PlainSphericalGaussian, WindowedSphericalGaussian, SphericalGaussianProduct, ShValue, ShBasis, ShRotated,
+               ShCompressed, Tonemap, TonemapTable, TonemapInverse, ExposureZone>;
 
 }  // namespace likeness::brdf

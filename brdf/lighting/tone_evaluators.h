@@ -2,6 +2,7 @@
 
 #include "brdf/evaluator.h"
 #include "brdf/lighting/gt_tonemap.h"
+#include "brdf/lighting/gt_tonemap_table.h"
 #include "brdf/lighting/zone.h"
 
 // The tonemapper and exposure zones as rows of `likeness eval`.
@@ -24,6 +25,22 @@ struct Tonemap : Plain<Tonemap> {
     const auto curve = model_from_channels<GtTonemap, S>(f + 1);
     out[0] = curve.eval(f[0]);
     out[1] = curve.part(f[0]);
+  }
+};
+
+struct TonemapTable : Plain<TonemapTable> {
+  static constexpr std::string_view kName = "gt_tonemap_table";
+  static constexpr std::string_view kText = "the Gran Turismo tonemapper at its defaults, from a table";
+  static constexpr std::array kInputs{Tonemap::kInputs[0]};
+  static constexpr std::array kOutputs{Tonemap::kOutputs[0]};
+  using Tables = GtTonemapTable;
+  static const Tables& tables() {
+    static const Tables kTables;
+    return kTables;
+  }
+  template <Scalar S>
+  static void evaluate(const Tables& tables, const S* f, S* out) {
+    out[0] = tables.eval(f[0]);
   }
 };
 
