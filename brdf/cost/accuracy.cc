@@ -83,8 +83,10 @@ Accuracy accuracy_of(const Family& family, const Draws& draws, const std::vector
   std::size_t worst = 0;
   for (std::size_t i = 0; i < draws.count; ++i) {
     const double w = weight(i);
-    const double relative =
-        w * std::abs(values[i] - reference[i]) / std::max(w * std::abs(reference[i]), family.negligible * mean);
+    const double off = w * std::abs(values[i] - reference[i]);
+    if (off == 0) continue;
+    const double relative = off / std::max(w * std::abs(reference[i]), family.negligible * mean);
+    if (std::isnan(accuracy.worst)) break;  // no number is farther off than none
     if (!(relative <= accuracy.worst)) accuracy.worst = relative, worst = i;
   }
   for (std::size_t k = 0; k < width; ++k) {
@@ -104,7 +106,7 @@ Accuracy accuracy_of(const Family& family, const Draws& draws, const std::vector
     }
     accuracy.energy = 0;
     for (std::size_t bin = 0; bin < sum.size(); ++bin) {
-      if (reference_sum[bin] == 0) continue;
+      if (reference_sum[bin] == 0 || std::isnan(accuracy.energy)) continue;
       const double error = sum[bin] / reference_sum[bin] - 1;
       if (!(std::abs(error) <= std::abs(accuracy.energy))) accuracy.energy = error;
     }
