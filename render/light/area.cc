@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include <glm/geometric.hpp>
@@ -25,35 +26,53 @@ Towards towards(const glm::vec3& point, const glm::vec3& on_light, const glm::ve
   return {direction, distance, distance2 / (cosine * area)};
 }
 
-// The rectangle in the frame of a point, and what of it the sampling needs. In double: the angles are differences of
-// nearly equal ones for a light far away.
+// The rectangle in the frame of a point, and what of it the sampling needs.
+template <class R>
 struct SphericalRectangle {
-  glm::dvec3 x, y, z;
-  double x0, x1, y0, y1, y0_2, y1_2, z0, z0_2;
-  double b0, b1, b0_2, k, solid_angle;
+  using V = glm::vec<3, R>;
+  V x, y, z;
+  R x0, x1, y0, y1, y0_2, y1_2, z0, z0_2;
+  R b0, b1, b0_2, k, solid_angle;
 
   SphericalRectangle(const scene::RectangleLight& light, const glm::vec3& point) {
-    const glm::dvec3 u(light.half_u), v(light.half_v);
-    x = glm::normalize(u), y = glm::normalize(v), z = glm::cross(x, y);
-    const glm::dvec3 corner = glm::dvec3(light.center) - u - v - glm::dvec3(point);
+    const V u(light.half_u), v(light.half_v);
+    const R length_u = glm::length(u), length_v = glm::length(v);
+    x = u / length_u, y = v / length_v, z = glm::cross(x, y);
+    const V corner = V(light.center - point) - u - v;
     z0 = glm::dot(corner, z);
     if (z0 > 0) z = -z, z0 = -z0;
     x0 = glm::dot(corner, x), y0 = glm::dot(corner, y);
-    x1 = x0 + 2 * glm::length(u), y1 = y0 + 2 * glm::length(v);
+    x1 = x0 + 2 * length_u, y1 = y0 + 2 * length_v;
     z0_2 = z0 * z0, y0_2 = y0 * y0, y1_2 = y1 * y1;
-    // The normals of the four planes through the point and an edge; each has one component that matters.
-    const double n0 = -z0 == 0 && y0 == 0 ? 0 : y0 / std::sqrt(z0_2 + y0_2);
-    const double n1 = x1 / std::sqrt(z0_2 + x1 * x1);
-    const double n2 = y1 / std::sqrt(z0_2 + y1_2);
-    const double n3 = x0 / std::sqrt(z0_2 + x0 * x0);
-    // Angles within the spherical quadrilateral. With unit normals (0, z0, -y0), (-z0, 0, x1), (0, -z0, y1), (z0, 0, -x0).
-    const double g0 = std::acos(std::clamp(n0 * n1, -1.0, 1.0)), g1 = std::acos(std::clamp(-n1 * n2, -1.0, 1.0));
-    const double g2 = std::acos(std::clamp(n2 * n3, -1.0, 1.0)), g3 = std::acos(std::clamp(-n3 * n0, -1.0, 1.0));
+    // Of the normals of the four planes through the point and an edge, the component that matters; n[i] belongs to the
+    // edge at y0, x1, y1, x0.
+    const R n0 = y0 / std::sqrt(z0_2 + y0_2), n1 = x1 / std::sqrt(z0_2 + x1 * x1);
+    const R n2 = y1 / std::sqrt(z0_2 + y1_2), n3 = x0 / std::sqrt(z0_2 + x0 * x0);
+    // The angles between them, within the spherical quadrilateral.
+    const auto angle = [](R cosine) { return std::acos(std::clamp(cosine, R(-1), R(1))); };
+    const R g0 = angle(n0 * n1), g1 = angle(-n1 * n2), g2 = angle(n2 * n3), g3 = angle(-n3 * n0);
     b0 = -n0, b1 = n2, b0_2 = b0 * b0;
-    k = 2 * std::numbers::pi - g2 - g3;
+    k = 2 * std::numbers::pi_v<R> - g2 - g3;
     solid_angle = g0 + g1 - k;
   }
+
+  Towards sample(const glm::vec2& u) const {
+    const R a = static_cast<R>(u.x) * solid_angle + k;
+    const R fu = (std::cos(a) * b0 - b1) / std::sin(a);
+    const R cu = std::clamp(std::copysign(R(1), fu) / std::sqrt(fu * fu + b0_2), R(-1), R(1));
+    const R xu = std::clamp(-(cu * z0) / std::sqrt(std::max(1 - cu * cu, std::numeric_limits<R>::min())), x0, x1);
+    const R d = std::sqrt(xu * xu + z0_2), h0 = y0 / std::hypot(d, y0), h1 = y1 / std::hypot(d, y1);
+    const R h = h0 + static_cast<R>(u.y) * (h1 - h0), rest = (1 - h) * (1 + h);
+    const R yv = rest > std::numeric_limits<R>::epsilon() ? std::clamp(h * d / std::sqrt(rest), y0, y1) : y1;
+    const V way = xu * x + yv * y + z0 * z;
+    const R distance = glm::length(way);
+    if (!(distance > 0)) return {};
+    return {glm::vec3(way / distance), static_cast<float>(distance), static_cast<float>(1 / solid_angle)};
+  }
 };
+
+// The solid angle is what is left of angles that nearly make 2 pi: floats tell it to 1e-4 above this [sr].
+constexpr float kLeastInFloats = 6e-3f;
 
 float area_of(const scene::RectangleLight& light) { return 4 * glm::length(light.half_u) * glm::length(light.half_v); }
 glm::vec3 normal_of(const scene::RectangleLight& light) {
@@ -76,20 +95,11 @@ Towards sample_rectangle(const scene::RectangleLight& light, const glm::vec3& po
     const glm::vec3 on_light = light.center + (2 * u.x - 1) * light.half_u + (2 * u.y - 1) * light.half_v;
     return towards(point, on_light, normal_of(light), area_of(light), light.two_sided);
   }
-  const SphericalRectangle r(light, point);
-  if (!(r.solid_angle > 0) || r.z0 == 0) return {};
-  const double a = static_cast<double>(u.x) * r.solid_angle + r.k;
-  const double fu = (std::cos(a) * r.b0 - r.b1) / std::sin(a);
-  const double cu = std::clamp(std::copysign(1.0, fu) / std::sqrt(fu * fu + r.b0_2), -1.0, 1.0);
-  const double xu = std::clamp(-(cu * r.z0) / std::sqrt(std::max(1 - cu * cu, 1e-300)), r.x0, r.x1);
-  const double d2 = xu * xu + r.z0_2;
-  const double h0 = r.y0 / std::sqrt(d2 + r.y0_2), h1 = r.y1 / std::sqrt(d2 + r.y1_2);
-  const double h = h0 + static_cast<double>(u.y) * (h1 - h0), h2 = h * h;
-  const double yv = h2 < 1 - 1e-12 ? std::clamp(h * std::sqrt(d2 / (1 - h2)), r.y0, r.y1) : r.y1;
-  const glm::dvec3 way = xu * r.x + yv * r.y + r.z0 * r.z;
-  const double distance = glm::length(way);
-  if (!(distance > 0)) return {};
-  return {glm::vec3(way / distance), static_cast<float>(distance), static_cast<float>(1 / r.solid_angle)};
+  const SphericalRectangle<float> r(light, point);
+  if (r.z0 == 0) return {};
+  if (r.solid_angle > kLeastInFloats) return r.sample(u);
+  const SphericalRectangle<double> exact(light, point);
+  return exact.solid_angle > 0 ? exact.sample(u) : Towards{};
 }
 
 float rectangle_pdf(const scene::RectangleLight& light, const glm::vec3& point, const glm::vec3& direction,
@@ -99,8 +109,11 @@ float rectangle_pdf(const scene::RectangleLight& light, const glm::vec3& point, 
     const float cosine = std::abs(glm::dot(direction, normal_of(light)));
     return cosine > 0 ? distance * distance / (cosine * area_of(light)) : 0.0f;
   }
-  const SphericalRectangle r(light, point);
-  return r.solid_angle > 0 && r.z0 != 0 ? static_cast<float>(1 / r.solid_angle) : 0.0f;
+  const SphericalRectangle<float> r(light, point);
+  if (r.z0 == 0) return 0;
+  if (r.solid_angle > kLeastInFloats) return 1 / r.solid_angle;
+  const SphericalRectangle<double> exact(light, point);
+  return exact.solid_angle > 0 ? static_cast<float>(1 / exact.solid_angle) : 0.0f;
 }
 
 Towards sample_disk(const scene::DiskLight& light, const glm::vec3& point, const glm::vec2& u) {

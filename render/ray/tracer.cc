@@ -154,6 +154,7 @@ struct Tracer::State {
   Device device;
   RTCScene scene = nullptr;
   std::vector<FilterContext> filters;  // one for each instance: its address is given to Embree
+  std::vector<const float*> vertices;  // of each instance
   bool has_wide_packets = false;
   std::size_t triangles = 0;
   std::ptrdiff_t bytes = 0;
@@ -199,9 +200,10 @@ struct Tracer::State {
     return geometry;
   }
   RTCGeometry triangles_of(std::span<const glm::vec3> positions, std::span<const std::array<scene::Index, 3>> corners,
-                           const glm::mat4& world_from_object) {
+                           const glm::mat4& world_from_object, std::size_t instance) {
     RTCGeometry geometry = rtcNewGeometry(device.handle, RTC_GEOMETRY_TYPE_TRIANGLE);
     float* at = new_points(geometry, RTC_FORMAT_FLOAT3, 3, positions.size());
+    vertices[instance] = at;
     for (const glm::vec3& p : positions) {
       const glm::vec3 world = transformed(world_from_object, p);
       *at++ = world.x, *at++ = world.y, *at++ = world.z;
@@ -234,6 +236,7 @@ Tracer::Tracer(const scene::Scene& scene, const TracerOptions& options) : state_
   rtcSetSceneFlags(s.scene, options.is_watertight ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE);
 
   s.filters.resize(scene.instances.size());
+  s.vertices.resize(scene.instances.size(), nullptr);
   for (std::size_t i = 0; i < scene.instances.size(); ++i) {
     const scene::Instance& instance = scene.instances[i];
     const scene::Mesh& mesh = scene.meshes[instance.mesh];
@@ -241,8 +244,9 @@ Tracer::Tracer(const scene::Scene& scene, const TracerOptions& options) : state_
     if (!mesh.is_sphere && mesh.triangles.empty()) continue;
     if (mesh.is_sphere && radius == 0)
       throw std::runtime_error("instance \"" + instance.name + "\": a sphere that is stretched or sheared");
-    RTCGeometry geometry = mesh.is_sphere ? s.sphere(glm::vec3(instance.world_from_object[3]), radius)
-                                          : s.triangles_of(mesh.positions, mesh.triangles, instance.world_from_object);
+    RTCGeometry geometry = mesh.is_sphere
+                               ? s.sphere(glm::vec3(instance.world_from_object[3]), radius)
+                               : s.triangles_of(mesh.positions, mesh.triangles, instance.world_from_object, i);
     if (options.has_cut_outs && scene.materials[instance.material].opacity) {
       s.filters[i] = {options.cut_outs, static_cast<scene::Index>(i)};
       rtcSetGeometryUserData(geometry, &s.filters[i]);
@@ -296,6 +300,7 @@ void Tracer::occluded(std::span<const Ray> rays, std::span<std::uint8_t> is_occl
   else occluded_in_packets<RTCRay8, 8>(state_->scene, rays, is_occluded);
 }
 
+const float* Tracer::vertices(scene::Index instance) const { return state_->vertices[instance]; }
 std::size_t Tracer::triangles() const { return state_->triangles; }
 std::size_t Tracer::bytes() const { return static_cast<std::size_t>(std::max<std::ptrdiff_t>(state_->bytes, 0)); }
 

@@ -51,7 +51,7 @@ struct TracerOptions {
 // A scene made ready for rays. Lights that have an area and are visible are met by closest(), never by occluded().
 // All members but the constructor may be called from many threads at once.
 //
-// World triangles: instances are transformed once. Keeps pointers into the scene's meshes; the scene must outlive it
+// Every instance is transformed once, to triangles of the world. Keeps pointers into the scene's meshes; the scene must outlive it
 // and keep still.
 class Tracer {
  public:
@@ -68,6 +68,9 @@ class Tracer {
   // three times as fast. An empty ray (far < near) meets nothing. Spans of equal length.
   void closest(std::span<const Ray> rays, std::span<Hit> hits) const;
   void occluded(std::span<const Ray> rays, std::span<std::uint8_t> is_occluded) const;
+
+  // The world positions of a mesh's vertices, x y z after each other; null for a sphere and for a mesh without triangles.
+  const float* vertices(scene::Index instance) const;
 
   std::size_t triangles() const;
   std::size_t bytes() const;  // of Embree, roughly

@@ -66,6 +66,9 @@ class Samples {
     return {unit(reversed_bits(x)), unit(reversed_bits(y))};
   }
 
+  // In [0, 1): one number without a pattern, at a fifth of the price.
+  float next_plain() { return unit(mixed(mixed(seed_ ^ index_, pair_++))); }
+
  private:
   std::uint32_t seed_, index_, pair_ = 0;
 };

@@ -1,0 +1,169 @@
+#include "render/reference/path.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "render/ray/offset.h"
+
+namespace likeness::reference {
+namespace {
+
+constexpr int kMostLightsPassed = 64;  // by one ray, before it meets a surface: lights do not hide what is behind them
+
+float largest(const glm::vec3& c) { return std::max({c.r, c.g, c.b}); }
+
+// The weight of what was found with density p and could have been found with density q.
+float weighted(float p, float q) {
+  const float ratio = q / p;
+  return 1 / (1 + ratio * ratio);
+}
+
+// Collects what one path finds; with kLayers, by what it was.
+template <unsigned kParts>
+struct Sum {
+  glm::vec3 radiance{0, 0, 0};
+  glm::vec3 diffuse_part{0, 0, 0};  // of the first surface's f cos_i in the direction that the path took
+  First* first;
+
+  void add(const glm::vec3& light, int bounces) {
+    radiance += light;
+    if constexpr ((kParts & kLayers) != 0) {
+      if (bounces == 0) return void(first->emitted += light);
+      (bounces == 1 ? first->direct : first->indirect) += light;
+      first->diffuse += light * diffuse_part, first->specular += light * (1.0f - diffuse_part);
+    }
+  }
+};
+
+glm::vec3 share_of_diffuse(const surface::Lobes& lobes) {
+  const glm::vec3 whole = lobes.diffuse + lobes.specular;
+  glm::vec3 share(0);
+  for (int k = 0; k < 3; ++k) share[k] = whole[k] > 0 ? lobes.diffuse[k] / whole[k] : 0.0f;
+  return share;
+}
+
+template <unsigned kParts>
+glm::vec3 follow(const world::World& world, ray::Ray ray, sampling::Samples& samples, const PathOptions& options,
+                 First* first) {
+  constexpr auto kDetail = (kParts & kTextures) != 0 ? surface::Detail::kTextures : surface::Detail::kNone;
+  const std::size_t instances = world.scene.instances.size();
+  Sum<kParts> sum;
+  sum.first = first;
+  glm::vec3 throughput(1);
+  float pdf = 0;  // of the ray's direction, by the surface that it left; 0: the camera's, or nothing else finds it
+  glm::vec3 from(0), from_normal(0);
+  surface::Point point;
+
+  for (int bounces = 0;; ++bounces) {
+    ray::Hit hit = world.tracer.closest(ray);
+    if constexpr ((kParts & kLights) != 0) {
+      for (int passed = 0; hit.is_some() && hit.surface >= instances && passed < kMostLightsPassed; ++passed) {
+        const std::size_t light = hit.surface - instances;
+        const glm::vec3 seen = world.lights.radiance(light, ray.direction, hit.distance);
+        if (largest(seen) > 0) {
+          const float other =
+              pdf > 0 ? world.lights.light_pdf(light, from, from_normal, ray.direction, hit.distance) : 0.0f;
+          sum.add(throughput * seen * (pdf > 0 ? weighted(pdf, other) : 1.0f), bounces);
+        }
+        ray.near = hit.distance * (1 + 1e-5f);
+        hit = world.tracer.closest(ray);
+      }
+    }
+    if (!hit.is_some() || hit.surface >= instances) {
+      if constexpr ((kParts & kEnvironment) != 0) {
+        if (!world.lights.environment()) break;  // every effect is forced, and there is none
+        float weight = 1;
+        if constexpr ((kParts & kLights) != 0)
+          if (pdf > 0 && world.lights.samples_environment())
+            weight = weighted(pdf, world.lights.environment_pdf(from, from_normal, ray.direction));
+        sum.add(throughput * world.lights.environment()->radiance(ray.direction) * weight, bounces);
+      }
+      break;
+    }
+
+    world.surfaces.at<kDetail>(ray, hit, point);
+    if constexpr ((kParts & kLayers) != 0) {
+      if (bounces == 0) {
+        first->depth = hit.distance, first->position = point.position, first->normal = point.normal;
+        first->shading_normal = point.shading_normal, first->uv = point.uv, first->instance = point.instance;
+        first->base_color = point.material->kernel.base_color(point.bound);
+      }
+    }
+    if constexpr ((kParts & kEmission) != 0) {
+      const glm::vec3 emitted = world.surfaces.emission(point);
+      if (largest(emitted) > 0) {
+        float weight = 1;
+        if (pdf > 0)
+          weight = weighted(pdf, world.lights.emitter_pdf(hit.surface, hit.triangle, from, from_normal, ray.direction,
+                                                          hit.distance, point.normal));
+        sum.add(throughput * emitted * weight, bounces);
+      }
+    }
+    if (point.is_black() || bounces >= options.max_bounces) break;
+
+    const glm::vec3 position = ray::beside(point.position, point.normal);
+    const glm::vec2 choice = samples.next();
+    if constexpr ((kParts & kLights) != 0) {
+      const glm::vec2 u = samples.next();
+      const light::Sample light = world.lights.sample(point.position, point.shading_normal, choice.x, u);
+      if (light.is_some()) {
+        const surface::Value f = point.eval(light.to_light);
+        if (largest(f.f_cos) > 0) {
+          // The ends are kept off the surfaces at both: an emissive surface must not shade itself.
+          const float far = light.distance == ray::kFar ? ray::kFar : light.distance * (1 - 1e-4f);
+          if (!world.tracer.occluded({position, 0, light.to_light, far})) {
+            if constexpr ((kParts & kLayers) != 0)
+              if (bounces == 0) sum.diffuse_part = share_of_diffuse(point.lobes(light.to_light));
+            sum.add(throughput * f.f_cos * light.value * (light.pdf > 0 ? weighted(light.pdf, f.pdf) : 1.0f),
+                    bounces + 1);
+          }
+        }
+      }
+    }
+
+    const surface::Direction next = point.sample(choice.y, samples.next());
+    if (!(next.pdf > 0)) break;
+    throughput *= next.weight;
+    if constexpr ((kParts & kLayers) != 0)
+      if (bounces == 0) sum.diffuse_part = share_of_diffuse(point.lobes(next.to_light));
+    if (bounces > 0) {
+      const float survival = std::min(largest(throughput), 1.0f);
+      if (survival < 1 && !(samples.next_plain() < survival)) break;
+      throughput /= survival;
+    }
+    if (!(largest(throughput) > 0)) break;
+    pdf = next.pdf;
+    from = point.position, from_normal = point.shading_normal;
+    ray = {position, 0, next.to_light, ray::kFar};
+  }
+  return sum.radiance;
+}
+
+template <unsigned... P>
+constexpr std::array<PathFunction, sizeof...(P)> functions(std::integer_sequence<unsigned, P...>) {
+  return {&follow<P>...};
+}
+constexpr auto kFunctions = functions(std::make_integer_sequence<unsigned, kPathParts>{});
+
+}  // namespace
+
+unsigned path_parts(const plan::Plan& plan, bool has_layers) {
+  using plan::Effect;
+  const auto any = [&](auto... effects) { return (plan.has(effects) || ...); };
+  unsigned parts = 0;
+  if (any(Effect::kPointLights, Effect::kAreaLights, Effect::kEmission, Effect::kEnvironmentPicture)) parts |= kLights;
+  if (any(Effect::kEnvironment)) parts |= kEnvironment;
+  if (any(Effect::kEmission)) parts |= kEmission;
+  if (any(Effect::kTextures, Effect::kNormalMaps, Effect::kDualNormals)) parts |= kTextures;
+  if (has_layers) parts |= kLayers;
+  return parts;
+}
+
+PathFunction path_function(unsigned parts) { return kFunctions[parts % kPathParts]; }
+
+}  // namespace likeness::reference

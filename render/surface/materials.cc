@@ -1,0 +1,93 @@
+#include "render/surface/materials.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <tuple>
+
+#include "render/texture/texture.h"
+
+namespace likeness::surface {
+namespace {
+
+using brdf::Parameter;
+
+template <class From, class To>
+void copy_number(const From& from, To& to) {
+  if constexpr (requires { from.r; })
+    to = {static_cast<float>(from.r), static_cast<float>(from.g), static_cast<float>(from.b)};
+  else to = static_cast<float>(from);
+}
+
+// The model in floats, and where each row of its table lies in it.
+template <template <class> class M>
+void prepare(const M<double>& model, const scene::Scene& scene, Prepared& out) {
+  M<float> in_floats;
+  const auto from = M<double>::members(), to = M<float>::members();
+  constexpr std::size_t kRows = std::tuple_size_v<std::remove_const_t<decltype(to)>>;
+  std::array<std::size_t, kRows> places{};
+  const auto* first = reinterpret_cast<const std::byte*>(&in_floats);
+  [&]<std::size_t... I>(std::index_sequence<I...>) {
+    (copy_number(model.*std::get<I>(from), in_floats.*std::get<I>(to)), ...);
+    ((places[I] = static_cast<std::size_t>(reinterpret_cast<const std::byte*>(&(in_floats.*std::get<I>(to))) - first) /
+                  sizeof(float)),
+     ...);
+  }(std::make_index_sequence<kRows>{});
+  static_assert(sizeof in_floats <= kModelBytes && std::is_trivially_copyable_v<M<float>>);
+  out.model_bytes = sizeof in_floats;
+  std::memcpy(&out.model, &in_floats, sizeof in_floats);
+  for (const scene::Material::Binding& binding : out.material->bindings) {
+    const Parameter& row = M<double>::kParameters[binding.parameter];
+    out.slots.push_back({&scene.images[binding.texture.image], binding.texture, places[binding.parameter], row.channels,
+                         static_cast<float>(row.range.low), static_cast<float>(row.range.high)});
+  }
+}
+
+const scene::Image* image_of(const scene::Scene& scene, const std::optional<scene::Texture>& texture) {
+  return texture ? &scene.images[texture->image] : nullptr;
+}
+
+}  // namespace
+
+const void* Prepared::model_at(const glm::vec2& uv, ModelBytes& scratch) const {
+  if (slots.empty()) return &model;
+  std::memcpy(&scratch, &model, model_bytes);
+  const auto put = [&](std::size_t at, float x) { std::memcpy(scratch.bytes.data() + at * sizeof x, &x, sizeof x); };
+  for (const Slot& slot : slots) {
+    const auto clamped = [&](float x) { return std::clamp(std::isnan(x) ? slot.low : x, slot.low, slot.high); };
+    if (slot.channels == 1) {
+      put(slot.at, clamped(texture::number_at(*slot.image, slot.texture, uv)));
+    } else {
+      const glm::vec3 c = texture::color_at(*slot.image, slot.texture, uv);
+      for (int k = 0; k < 3; ++k) put(slot.at + static_cast<std::size_t>(k), clamped(c[k]));
+    }
+  }
+  return &scratch;
+}
+
+std::vector<Prepared> prepare_materials(const scene::Scene& scene, bool force_all) {
+  std::vector<Prepared> all;
+  for (const scene::Material& material : scene.materials) {
+    Prepared& out = all.emplace_back();
+    out.material = &material;
+    out.normal_map = image_of(scene, material.normal_map);
+    out.diffuse_normal_map = image_of(scene, material.diffuse_normal_map);
+    out.emission_map = image_of(scene, material.emission_map);
+    out.emits = material.emission.r > 0 || material.emission.g > 0 || material.emission.b > 0;
+    std::visit([&](const auto& model) { prepare(model, scene, out); }, material.brdf);
+    out.kernel = kernel_of(material.brdf);
+    if (const auto* callisto = std::get_if<brdf::Callisto<double>>(&material.brdf)) {
+      const auto is_fixed = [&](std::string_view name) {
+        return std::none_of(material.bindings.begin(), material.bindings.end(), [&](const auto& binding) {
+          return brdf::Callisto<double>::kParameters[binding.parameter].name == name;
+        });
+      };
+      using C = brdf::Callisto<double>;
+      out.callisto_parts = force_all ? static_cast<unsigned>(C::kAllParts) : callisto->parts(is_fixed);
+      out.kernel = callisto_kernel(out.callisto_parts, out.has_dual_normals());
+    }
+  }
+  return all;
+}
+
+}  // namespace likeness::surface

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <vector>
+
+#include <glm/mat3x3.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "render/ray/frame.h"
+#include "render/ray/tracer.h"
+#include "render/scene/scene.h"
+#include "render/surface/materials.h"
+
+namespace likeness::surface {
+
+// A point of a surface as whoever looks at it needs it.
+struct Point {
+  glm::vec3 position{0, 0, 0};
+  glm::vec3 normal{0, 0, 1};          // geometric, unit, on the viewer's side
+  glm::vec3 shading_normal{0, 0, 1};  // of the mesh, or of its normal map, turned so that the viewer is above it
+  ray::Frame frame;                   // of the kernel
+  glm::vec3 to_view{0, 0, 1};         // in that frame
+  glm::vec2 uv{0, 0};
+  scene::Index instance = scene::kNone, triangle = 0;
+  const Prepared* material = nullptr;
+  bool is_back = false;  // the viewer is behind it
+  Bound bound;
+  ModelBytes scratch;  // where bound.model may point to
+
+  bool is_black() const { return is_back && !material->material->two_sided; }
+  Value eval(const glm::vec3& to_light) const {
+    if (glm::dot(to_light, normal) <= 0) return {};
+    return material->kernel.eval(bound, frame.local(to_light), to_view);
+  }
+  Direction sample(float choice, const glm::vec2& u) const {
+    Direction d = material->kernel.sample(bound, to_view, choice, u);
+    d.to_light = frame.world(d.to_light);
+    if (glm::dot(d.to_light, normal) <= 0) d.pdf = 0, d.weight = glm::vec3(0);
+    return d;
+  }
+  Lobes lobes(const glm::vec3& to_light) const {
+    if (glm::dot(to_light, normal) <= 0) return {};
+    return material->kernel.lobes(bound, frame.local(to_light), to_view);
+  }
+};
+
+// What may vary over a scene's surfaces; the functions below are compiled for those with and those without.
+enum class Detail : bool { kNone, kTextures };
+
+// The surfaces of a scene. Keeps pointers to what it is made of.
+class Surfaces {
+ public:
+  Surfaces(const scene::Scene& scene, const ray::Tracer& tracer, const std::vector<Prepared>& materials);
+
+  // The point that a ray met. `hit` is on an instance, not on a light. kNone: no material has a texture, normal maps and
+  // dual normals included. point.bound may point into `point`: it is not to be copied.
+  template <Detail kDetail>
+  void at(const ray::Ray& ray, const ray::Hit& hit, Point& point) const;
+
+  // Radiance that the point sends to its viewer on its own [W/(m^2 sr)].
+  glm::vec3 emission(const Point& point) const;
+
+  glm::vec2 uv_at(scene::Index instance, scene::Index triangle, float u, float v) const;
+
+ private:
+  struct Placed {
+    const scene::Mesh* mesh;
+    const Prepared* material;
+    const float* vertices;
+    glm::mat3 normal_from_object, world_from_object;
+    glm::vec3 center;  // of a sphere
+    float radius;
+  };
+  std::vector<Placed> placed_;
+};
+
+}  // namespace likeness::surface

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <glm/mat3x3.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "render/ray/tracer.h"
+#include "render/scene/scene.h"
+
+namespace likeness::world {
+
+// A camera that sends rays.
+class Camera {
+ public:
+  explicit Camera(const scene::Camera& camera);
+
+  int width() const { return width_; }
+  int height() const { return height_; }
+
+  // The ray through a point of the picture [pixel, (0, 0) is the top left corner], with a unit direction. `lens` in
+  // [0, 1)^2 is a point of the lens; a pinhole does not read it.
+  ray::Ray ray(const glm::vec2& at, const glm::vec2& lens = {0.5f, 0.5f}) const;
+
+  // The distance along the axis (its depth) of a point in the world [m], negative behind the camera.
+  float depth(const glm::vec3& point) const;
+  bool has_lens() const { return lens_radius_ > 0; }
+  // Width of a pixel at a distance of 1 m [m].
+  float pixel_size() const { return 1 / focal_y_; }
+
+ private:
+  int width_, height_;
+  float focal_x_, focal_y_, center_x_, center_y_, lens_radius_, focus_distance_;
+  glm::mat3 world_from_camera_;
+  glm::vec3 position_;
+};
+
+}  // namespace likeness::world
