@@ -13,6 +13,7 @@
 #include "render/scene/mesh_file.h"
 #include "render/scene/read_entries.h"
 #include "render/scene/read_scene.h"
+#include "render/scene/trim.h"
 
 namespace likeness::scene {
 namespace {
@@ -121,6 +122,7 @@ Camera camera_of_all(const Bounds& all) {
 
 void complete(Loading& loading, const std::string& source) {
   Scene& scene = loading.scene();
+  trim(scene);
   make_missing_tangents(loading);
   if (scene.instances.empty()) loading.repair("nothing stands in the scene", source);
   if (scene.cameras.empty()) {
