@@ -33,7 +33,8 @@ Distribution2::Distribution2(std::span<const float> weights, int width, int heig
   columns_.reserve(rows);
   for (std::size_t y = 0; y < rows; ++y) {
     columns_.emplace_back(weights.subspan(y * columns, columns));
-    of_rows[y] = static_cast<float>(columns_.back().sum());
+    // Of the mean, which a float holds if it holds the weights.
+    of_rows[y] = static_cast<float>(columns_.back().sum() / width);
   }
   rows_ = Distribution(of_rows);
 }

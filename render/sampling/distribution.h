@@ -46,7 +46,6 @@ class Distribution2 {
 
   Point sample(const glm::vec2& u) const;
   float density(const glm::vec2& at) const;
-  double sum() const { return rows_.sum(); }
 
  private:
   int width_ = 0, height_ = 0;
