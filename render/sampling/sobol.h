@@ -66,6 +66,9 @@ class Samples {
     return {unit(reversed_bits(x)), unit(reversed_bits(y))};
   }
 
+  // Leaves a pair out, for nothing: who does not need one asks for the rest in the same order.
+  void skip() { ++pair_; }
+
   // In [0, 1): one number without a pattern, at a fifth of the price.
   float next_plain() { return unit(mixed(mixed(seed_ ^ index_, pair_++))); }
 
