@@ -15,6 +15,7 @@
 #include "fit/result_file.h"
 #include "render/files/files.h"
 #include "render/files/interrupt.h"
+#include "render/files/progress.h"
 
 namespace likeness::fit {
 
@@ -27,21 +28,13 @@ struct FitOptions {
   bool json = false;
 };
 
-std::string duration(double seconds) {
-  std::ostringstream out;
-  const long whole = std::lround(seconds);
-  if (whole >= 3600) out << whole / 3600 << " h ";
-  if (whole >= 60) out << whole / 60 % 60 << " min ";
-  out << whole % 60 << " s";
-  return out.str();
-}
-
 // One line that is rewritten on a terminal, one line a material elsewhere.
 void tell(const BatchProgress& p) {
   const bool terminal = isatty(STDERR_FILENO) != 0;
   std::ostringstream line;
   line << p.done << "/" << p.all << "  " << p.material << ": " << p.outcome;
-  if (p.done < p.all && std::isfinite(p.seconds_left)) line << "; about " << duration(p.seconds_left) << " left";
+  if (p.done < p.all && std::isfinite(p.seconds_left))
+    line << "; about " << files::duration_text(p.seconds_left) << " left";
   if (terminal) std::cerr << "\r\x1b[K" << line.str() << (p.done == p.all ? "\n" : "") << std::flush;
   else std::cerr << line.str() << "\n";
 }

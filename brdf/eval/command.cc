@@ -10,11 +10,11 @@
 #include <CLI/CLI.hpp>
 
 #include "brdf/eval/list.h"
-#include "brdf/eval/progress.h"
 #include "brdf/eval/stress.h"
 #include "brdf/eval/table.h"
 #include "render/files/files.h"
 #include "render/files/interrupt.h"
+#include "render/files/progress.h"
 
 namespace likeness::eval {
 namespace {
@@ -67,7 +67,7 @@ int run_stress(const EvalOptions& o) {
     options.in_batches = *precision == Precision::kBatch;
   }
   files::catch_interrupts();
-  static Progress* progress = nullptr;  // a plain function hears how far it is
+  static files::Progress* progress = nullptr;  // a plain function hears how far it is
   const auto tell = [](std::string_view what, double share) {
     if (progress != nullptr) progress->tell(what, share);
   };
@@ -77,7 +77,7 @@ int run_stress(const EvalOptions& o) {
   for (const catalog::Entry& entry : entries_of(o.model)) {
     Stressed result;
     {
-      Progress line;
+      files::Progress line;
       progress = &line;
       result = stress(entry, options, tell);
       progress = nullptr;

@@ -20,8 +20,8 @@
 
 #include "brdf/eval/block_reader.h"
 #include "brdf/eval/csv.h"
-#include "brdf/eval/progress.h"
 #include "render/files/files.h"
+#include "render/files/progress.h"
 
 namespace likeness::eval {
 namespace {
@@ -110,7 +110,7 @@ struct Work {
 // Reads, evaluates and writes what follows the header. The first fault in the order of the file ends it.
 Outcome run_blocks(const Rows& rows, Block& first, BlockReader& reader, Sink& sink, int threads) {
   Outcome all;
-  Progress progress;
+  files::Progress progress;
   bool begun = false, ended = false;
   const auto read = [&](tbb::flow_control& flow) -> std::shared_ptr<Work> {
     auto work = std::make_shared<Work>();

@@ -1,4 +1,4 @@
-#include "brdf/eval/progress.h"
+#include "render/files/progress.h"
 
 #include <unistd.h>
 
@@ -6,7 +6,7 @@
 #include <iostream>
 #include <string>
 
-namespace likeness::eval {
+namespace likeness::files {
 
 std::string duration_text(double seconds) {
   const long whole = std::lround(seconds);
@@ -35,4 +35,4 @@ void Progress::tell(std::string_view what, double share) {
   std::cerr << std::flush;
 }
 
-}  // namespace likeness::eval
+}  // namespace likeness::files

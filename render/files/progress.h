@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-namespace likeness::eval {
+namespace likeness::files {
 
 // One line on standard error that says how far long work has come; nothing where that is no terminal, and nothing
 // during the first second.
@@ -27,4 +27,4 @@ class Progress {
 // "12 s", "3 min 4 s", "2 h 0 min 1 s"
 std::string duration_text(double seconds);
 
-}  // namespace likeness::eval
+}  // namespace likeness::files
