@@ -62,7 +62,7 @@ constexpr std::array kMaterialKeys{
     Key{.name = "parameters", .form = Form::kParameters, .sections = kTextures, .text = "of the model, by name: a number, [r, g, b], or a texture"},
     Key{.name = "normal_map", .form = Form::kObject, .sections = kTextures, .text = "texture, 2 texel - 1 in the tangent frame: x along u, y against v (green is up)"},
     Key{.name = "normal_strength", .form = Form::kNumber, .initial = "1", .range = {-100, 100}, .text = "times its x and y"},
-    Key{.name = "diffuse_normal_map", .form = Form::kObject, .text = "dual normals: this one for the diffuse, normal_map for the specular"},
+    Key{.name = "diffuse_normal_map", .form = Form::kObject, .sections = kTextures, .text = "dual normals: this one for the diffuse, normal_map for the specular"},
     Key{.name = "opacity", .form = Form::kObject, .sections = kTextures, .text = "texture: the surface is cut out where it is below opacity_cutoff"},
     Key{.name = "opacity_cutoff", .form = Form::kNumber, .initial = "0.5", .range = {0, 1}, .text = "see opacity"},
     Key{.name = "emission", .form = Form::kColor, .initial = "0", .range = {0, 1e12}, .text = "radiance, in emission_unit"},
