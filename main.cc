@@ -16,6 +16,7 @@
 #include "fit/command.h"
 #include "fit/measured/command.h"
 #include "fit/slice/command.h"
+#include "render/command/command.h"
 #include "render/files/files.h"
 
 namespace {
@@ -30,6 +31,8 @@ constexpr auto kFooter = R"(Examples
   likeness eval ggx --in angles.csv            a column of results for a table of inputs; --list prints every model
   likeness slice callisto --out slice          a picture of how a model, or a measurement, reflects
   likeness cost evaluators --out out/cost      what accuracy costs in time, on this machine
+  likeness render room.json                    a picture of a scene; Ctrl-C keeps what there is
+  likeness plan room.json                      which effects a scene calls for, and why
 
 Exit codes: 0 done, 1 a check said no, 2 usage, 3 a file cannot be used, 4 the program failed.
 Manual: docs/README.md)";
@@ -106,6 +109,8 @@ int main(int argc, char** argv) try {
   likeness::eval::add_eval(program, exit_code);
   likeness::fit::add_slice(program, exit_code);
   likeness::cost::add_cost(program, exit_code);
+  likeness::render_command::add_render(program, exit_code);
+  likeness::render_command::add_plan(program, exit_code);
   program.footer(kFooter);  // last: a subcommand made after it would repeat it
 
   try {

@@ -1,0 +1,14 @@
+#include "render/command/integrators.h"
+
+#include <array>
+
+namespace likeness::render_command {
+
+std::span<const Integrator> integrators() {
+  static constexpr std::array kRows{
+      Integrator{"reference", "path tracer, exact but for noise", true, render_reference},
+  };
+  return kRows;
+}
+
+}  // namespace likeness::render_command
