@@ -238,17 +238,18 @@ Sample Lights::sample(const glm::vec3& point, const glm::vec3& normal, float cho
   return s;
 }
 
-glm::vec3 Lights::radiance(std::size_t index, const glm::vec3& direction, float distance) const {
+glm::vec3 Lights::radiance(std::size_t index, const glm::vec3& direction, float distance,
+                           const glm::vec3& normal) const {
   const scene::Light& light = scene_->lights[index];
-  const auto seen = [&](const glm::vec3& normal, bool is_two_sided, const glm::vec3& radiance) {
-    if (!is_two_sided && glm::dot(direction, normal) >= 0) return glm::vec3(0);
+  const auto seen = [&](const glm::vec3& front, bool is_two_sided, const glm::vec3& radiance) {
+    if (!is_two_sided && glm::dot(direction, front) >= 0) return glm::vec3(0);
     return radiance * attenuation(light, distance);
   };
   return std::visit(
       Cases{
           [&](const scene::RectangleLight& l) { return seen(glm::cross(l.half_u, l.half_v), l.two_sided, l.radiance); },
           [&](const scene::DiskLight& l) { return seen(l.normal, l.two_sided, l.radiance); },
-          [&](const scene::SphereLight& l) { return l.radiance * attenuation(light, distance); },
+          [&](const scene::SphereLight& l) { return seen(normal, false, l.radiance); },
           [](const auto&) { return glm::vec3(0); },
       },
       light.shape);

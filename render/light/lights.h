@@ -60,8 +60,9 @@ class Lights {
   // A direction to light `index`, as if it were the only one.
   Sample sample_light(std::size_t index, const glm::vec3& point, const glm::vec2& u) const;
 
-  // What a ray from `point` that met a light of the scene sees; 0 from the back of a one-sided one.
-  glm::vec3 radiance(std::size_t light, const glm::vec3& direction, float distance) const;
+  // What a ray that met a light of the scene, with its geometric normal there, sees: 0 from the back of a one-sided one,
+  // and from within a sphere.
+  glm::vec3 radiance(std::size_t light, const glm::vec3& direction, float distance, const glm::vec3& normal) const;
 
   // The density with which sample() gives a direction that meets: a light of the scene, a triangle of an emissive
   // instance (with its geometric normal), the environment.

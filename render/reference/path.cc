@@ -64,7 +64,7 @@ glm::vec3 follow(const world::World& world, ray::Ray ray, sampling::Samples& sam
     if constexpr ((kParts & kLights) != 0) {
       for (int passed = 0; hit.is_some() && hit.surface >= instances && passed < kMostLightsPassed; ++passed) {
         const std::size_t light = hit.surface - instances;
-        const glm::vec3 seen = world.lights.radiance(light, ray.direction, hit.distance);
+        const glm::vec3 seen = world.lights.radiance(light, ray.direction, hit.distance, hit.normal);
         if (largest(seen) > 0) {
           const float other =
               pdf > 0 ? world.lights.light_pdf(light, from, from_normal, ray.direction, hit.distance) : 0.0f;

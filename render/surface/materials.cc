@@ -83,6 +83,7 @@ std::vector<Prepared> prepare_materials(const scene::Scene& scene, bool force_al
         });
       };
       using C = brdf::Callisto<double>;
+      out.is_callisto = true;
       out.callisto_parts = force_all ? static_cast<unsigned>(C::kAllParts) : callisto->parts(is_fixed);
       out.kernel = callisto_kernel(out.callisto_parts, out.has_dual_normals());
     }

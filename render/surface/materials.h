@@ -28,7 +28,7 @@ struct Prepared {
   ModelBytes model;
   std::vector<Slot> slots;
   const scene::Image *normal_map = nullptr, *diffuse_normal_map = nullptr, *emission_map = nullptr;
-  bool emits = false;
+  bool emits = false, is_callisto = false;
 
   bool has_dual_normals() const { return diffuse_normal_map != nullptr; }
   bool has_textures() const { return !slots.empty() || normal_map != nullptr || diffuse_normal_map != nullptr; }

@@ -27,6 +27,7 @@ struct Point {
   Bound bound;
   ModelBytes scratch;  // where bound.model may point to
 
+  bool has_dual_frame() const { return material->has_dual_normals(); }
   bool is_black() const { return is_back && !material->material->two_sided; }
   Value eval(const glm::vec3& to_light) const {
     if (glm::dot(to_light, normal) <= 0) return {};

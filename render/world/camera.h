@@ -23,6 +23,7 @@ class Camera {
 
   // The distance along the axis (its depth) of a point in the world [m], negative behind the camera.
   float depth(const glm::vec3& point) const;
+  const glm::vec3& position() const { return position_; }
   bool has_lens() const { return lens_radius_ > 0; }
   // Width of a pixel at a distance of 1 m [m].
   float pixel_size() const { return 1 / focal_y_; }

@@ -1,0 +1,102 @@
+#include <algorithm>
+#include <array>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "render/ray/offset.h"
+#include "render/runtime/pass.h"
+#include "render/sampling/sobol.h"
+
+namespace likeness::runtime {
+namespace {
+
+using C = brdf::Callisto<float>;
+
+// Directions of the surface's own and of the picture's in turn, weighted against each other, as the path tracer does.
+glm::vec3 by_rays(const Context& c, const surface::Point& point, std::size_t pixel, int rays) {
+  const light::Environment& environment = *c.world.lights.environment();
+  const bool chooses = environment.has_picture();
+  const glm::vec3 origin = ray::beside(point.position, point.normal);
+  const auto is_open = [&](const glm::vec3& direction) {
+    return !c.world.tracer.occluded({origin, 0, direction, ray::kFar});
+  };
+  const auto weight = [](float p, float q) { return 1 / (1 + (q / p) * (q / p)); };
+  glm::vec3 sum(0);
+  for (int r = 0; r < rays; ++r) {
+    sampling::Samples samples(static_cast<std::uint32_t>(pixel),
+                              c.sample * static_cast<std::uint32_t>(rays) + static_cast<std::uint32_t>(r),
+                              c.settings.seed + 0x51ed270bu);
+    const float choice = samples.next_plain();
+    const surface::Direction own = point.sample(choice, samples.next());
+    if (own.pdf > 0) {
+      const float w = chooses ? weight(own.pdf, environment.pdf(own.to_light)) : 1.0f;
+      const glm::vec3 gain = own.weight * environment.radiance(own.to_light) * w;
+      if ((gain.r > 0 || gain.g > 0 || gain.b > 0) && is_open(own.to_light)) sum += gain;
+    }
+    if (!chooses) continue;
+    const auto chosen = environment.sample(samples.next());
+    if (!(chosen.pdf > 0)) continue;
+    const surface::Value f = point.eval(chosen.direction);
+    const glm::vec3 gain = f.f_cos * environment.radiance(chosen.direction) * (weight(chosen.pdf, f.pdf) / chosen.pdf);
+    if ((gain.r > 0 || gain.g > 0 || gain.b > 0) && is_open(chosen.direction)) sum += gain;
+  }
+  return sum / static_cast<float>(rays);
+}
+
+// Callisto by the maps: its diffuse as Lambert's, its lobes with Schlick's Fresnel, neither shaped nor shaded.
+glm::vec3 by_maps(const Context& c, const surface::Point& point) {
+  const C& m = *static_cast<const C*>(point.bound.model);
+  const glm::vec3 rho(m.base_color.r, m.base_color.g, m.base_color.b);
+  const glm::vec3 f0 = glm::mix(glm::vec3(0.08f * m.specular), rho, m.metallic);
+  const glm::vec3 normal = point.frame.world(point.bound.specular_normal);
+  const glm::vec3 diffuse_normal = point.frame.world(point.bound.diffuse_normal);
+  const glm::vec3 to_view = point.frame.world(point.to_view);
+  const float cos_o = std::clamp(glm::dot(normal, to_view), 0.0f, 1.0f);
+  const glm::vec3 mirror = 2 * glm::dot(normal, to_view) * normal - to_view;
+  const auto lobe = [&](float roughness) {
+    const glm::vec2 r = EnvironmentMaps::reflectance(cos_o, roughness);
+    return (f0 * r.x + r.y) * c.maps.radiance(mirror, roughness);
+  };
+  glm::vec3 specular = lobe(m.roughness);
+  if (m.dual_specular_opacity > 0)
+    specular = glm::mix(specular, lobe(std::min(m.roughness * m.dual_specular_roughness_scale, 1.0f)),
+                        m.dual_specular_opacity);
+  return rho * ((1 - m.metallic) * 0.31830989f) * c.maps.irradiance(diffuse_normal) + specular;
+}
+
+constexpr int rays_of(EnvironmentLevel level) {
+  return level == EnvironmentLevel::kMaps ? 16 : 1 << (2 * (static_cast<int>(level) - 1));
+}
+
+}  // namespace
+
+Pass environment_pass(const plan::Plan&, const Settings& settings) {
+  const bool has_maps = settings.environment == EnvironmentLevel::kMaps;
+  const int rays = rays_of(settings.environment);
+  return {"environment",
+          has_maps ? "light of the environment by harmonics and filtered pictures (other models than Callisto: 16 rays)"
+                   : "light of the environment by rays",
+          {Buffer::kSurfaces, Buffer::kTiles},
+          {Buffer::kRadiance},
+          [=](Context& c) {
+            if (!c.world.lights.environment()) return;  // every effect is forced, and there is none
+            const glm::vec3 camera = c.camera.position();
+            for_tiles(c.frame, true, [&](Tile& tile) {
+              surface::Point point;
+              for (int y = tile.y; y < tile.y + tile.height; ++y)
+                for (int x = tile.x; x < tile.x + tile.width; ++x) {
+                  const std::size_t pixel = c.frame.pixel(x, y);
+                  if (!c.frame.cells[pixel].is_surface()) continue;
+                  restore(c, pixel, camera, point);
+                  const bool is_callisto = point.material->is_callisto;
+                  const glm::vec3 light = has_maps && is_callisto ? by_maps(c, point) : by_rays(c, point, pixel, rays);
+                  for (std::size_t k = 0; k < 3; ++k)
+                    c.frame.radiance.rgb[3 * pixel + k] +=
+                        light[static_cast<int>(k)] / static_cast<float>(c.settings.pixel_samples);
+                }
+            });
+          }};
+}
+
+}  // namespace likeness::runtime

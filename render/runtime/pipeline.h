@@ -1,0 +1,45 @@
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "render/image/picture.h"
+#include "render/plan/plan.h"
+#include "render/runtime/pass.h"
+#include "render/runtime/settings.h"
+#include "render/world/world.h"
+
+// The run-time pipeline: a frame as a game would light it, by the same evaluators as the path tracer. What it leaves out
+// or approximates is stated in docs/runtime.md and measured by `likeness cost`.
+namespace likeness::runtime {
+
+// The passes of a frame, in order: those that the plan calls for.
+std::vector<Pass> passes_of(const plan::Plan& plan, const Settings& settings);
+
+// What is wrong with a list of passes: the first that reads what no pass before it wrote, in words; empty: nothing.
+std::string complaint(const std::vector<Pass>& passes);
+
+// What a pass of a frame took, all its samples together.
+struct PassTime {
+  std::string_view name;
+  double seconds = 0;  // wall clock
+  double cpu_seconds = 0;
+};
+
+// A scene that frames are made of: holds what is made once (the maps of the environment).
+class Pipeline {
+ public:
+  // Keeps the world, which must outlive it.
+  explicit Pipeline(const world::World& world);
+
+  // One frame of a camera: radiance [W/(m^2 sr)]. `threads` 0: one a core. `times` takes the passes' times if it is not
+  // null.
+  image::Picture frame(std::size_t camera, const Settings& settings, int threads = 0,
+                       std::vector<PassTime>* times = nullptr) const;
+
+ private:
+  const world::World& world_;
+  EnvironmentMaps maps_;
+};
+
+}  // namespace likeness::runtime
