@@ -11,6 +11,7 @@
 #include <CLI/CLI.hpp>
 
 #include "datasets_synthetic/material.h"
+#include "datasets_synthetic/scene_command.h"
 #include "render/files/files.h"
 #include "render/material/material_file.h"
 #include "render/material/parameters.h"
@@ -248,6 +249,7 @@ void add_make(CLI::App& program, int& exit_code) {
     run_make(*options, std::cout);
     exit_code = 0;
   });
+  add_make_scene(*make, exit_code);
 }
 
 }  // namespace likeness::datasets_synthetic
