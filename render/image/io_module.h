@@ -6,13 +6,6 @@
 // function returns 0, or 1 with a message of at most error_size - 1 characters in `error`, and throws nothing.
 extern "C" {
 
-// Takes `size` bytes of the encoded file; called once.
-typedef void (*likeness_bytes_sink)(void* state, const void* bytes, size_t size);
-
-// Encodes width x height pixels of interleaved 8-bit RGB, top row first, as PNG.
-typedef int (*likeness_encode_png_function)(const unsigned char* rgb, int width, int height, likeness_bytes_sink sink,
-                                            void* state, char* error, size_t error_size);
-
 // Gives the memory for width x height pixels of interleaved channels, floats or else bytes, or null with a reason in
 // `error`. Called at most once.
 typedef void* (*likeness_pixels_place)(void* state, int width, int height, int channels, int is_float, char* error,
@@ -25,6 +18,5 @@ typedef int (*likeness_decode_function)(const char* format, const void* bytes, s
 
 namespace likeness::image {
 inline constexpr const char* kIoModuleFile = "likeness_image_io.so";
-inline constexpr const char* kEncodePngName = "likeness_encode_png_1";  // the digit is the version of the agreement
-inline constexpr const char* kDecodeName = "likeness_decode_1";
+inline constexpr const char* kDecodeName = "likeness_decode_1";  // the digit is the version of the agreement
 }  // namespace likeness::image

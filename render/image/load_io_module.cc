@@ -55,12 +55,12 @@ Module load() {
     void* const handle = dlopen(file.c_str(), RTLD_LAZY | RTLD_LOCAL);
     if (!handle) {
       const char* const cause = dlerror();
-      throw std::runtime_error(file.string() + ": the module for PNG and other pictures cannot be loaded: " +
+      throw std::runtime_error(file.string() + ": the module for pictures other than EXR cannot be loaded: " +
                                (cause ? cause : "no cause given") + "; is OpenImageIO installed?");
     }
     return {handle, file};
   }
-  throw std::runtime_error(std::string(kIoModuleFile) + ", the module for PNG and other pictures, is not in any of: " +
+  throw std::runtime_error(std::string(kIoModuleFile) + ", the module for pictures other than EXR, is not in any of: " +
                            tried + "; install Likeness as a whole, or set LIKENESS_MODULES to the folder that has it");
 }
 
