@@ -79,6 +79,21 @@ Placed place(MeshFile&& file, Normals normals, bool is_flipped, const std::strin
   return out;
 }
 
+// A part's own nodes may flatten it, or put it farther out than numbers go.
+bool is_sound(const glm::mat4& m) {
+  const glm::dmat3 turn(m);
+  const double lengths = glm::length(turn[0]) * glm::length(turn[1]) * glm::length(turn[2]);
+  const bool is_near = glm::length(glm::dvec3(m[3])) < static_cast<double>(kFarthest) && lengths < 1e27;
+  return is_near && lengths > 0 && std::abs(glm::determinant(turn)) > 1e-9 * lengths;
+}
+
+void add(Instance&& instance, Loading& loading) {
+  if (is_sound(instance.world_from_object)) loading.scene().instances.push_back(std::move(instance));
+  else
+    loading.repair("parts that their nodes make flat, or move beyond 1e9 m, left out",
+                   loading.scene().meshes[instance.mesh].name);
+}
+
 Index plain_material(Loading& loading, Index& at) {
   if (at == kNone) {
     loading.scene().materials.push_back({});
@@ -239,16 +254,8 @@ class Assembly {
       out.world_from_object = glm::mat4(place * part.world_from_object);
       if (scene_.instances.size() == kMostParts)
         instance.refuse(": with it more than " + std::to_string(kMostParts) + " parts stand in the scene");
-      if (is_flat(out.world_from_object)) loading_.repair("parts that their nodes make flat left out", mesh.name);
-      else scene_.instances.push_back(std::move(out));
+      add(std::move(out), loading_);
     }
-  }
-
-  // A part's own nodes may flatten it; the instance's own transform has been checked.
-  static bool is_flat(const glm::mat4& m) {
-    const glm::dmat3 turn(m);
-    const double lengths = glm::length(turn[0]) * glm::length(turn[1]) * glm::length(turn[2]);
-    return !(lengths > 0 && std::isfinite(lengths) && std::abs(glm::determinant(turn)) > 1e-9 * lengths);
   }
 
   std::map<std::string, Index> exchanges(const Fields& instance, const Placed& placed) {
@@ -331,9 +338,9 @@ Scene scene_of_mesh(const std::filesystem::path& file, const Access& access) {
   scene.lights = std::move(placed.lights);
   Index plain = kNone;
   for (const Placed::Part& part : placed.parts)
-    scene.instances.push_back({part.name, part.mesh,
-                               part.material == kNone ? plain_material(loading, plain) : part.material,
-                               glm::mat4(part.world_from_object)});
+    add({part.name, part.mesh, part.material == kNone ? plain_material(loading, plain) : part.material,
+         glm::mat4(part.world_from_object)},
+        loading);
   if (!has_light(scene)) {
     scene.environment = Environment{};
     loading.repair("no light: an environment of radiance 1 added", file.string());

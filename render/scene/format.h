@@ -3,6 +3,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "brdf/parameter.h"
 
@@ -66,6 +67,6 @@ inline constexpr std::string_view kComment = "comment";  // a key that is allowe
 // docs/schema/scene.schema.json, and the tables of docs/scene.md by section.
 std::string schema_text();
 std::string table_text(std::string_view section);
-std::string section_names();  // one a line
+std::vector<std::string> section_names();
 
 }  // namespace likeness::scene

@@ -59,7 +59,7 @@ class Reader {
     if (const Node base = document_.member(pbr, "baseColorTexture")) {
       Texture t = texture(base, Transfer::kSrgb, false);
       t.scale = glm::vec3(r, g, b);
-      bind(out, "base_color", t);
+      bind_texture(out, "base_color", t);
       if (is_cut && loading_.scene().images[t.image].texels.channels % 2 == 0) {
         t.transfer = Transfer::kLinear;  // alpha is, whatever the color
         t.channel = loading_.scene().images[t.image].texels.channels - 1;
@@ -71,10 +71,10 @@ class Reader {
       Texture t = texture(map, Transfer::kLinear, false);
       t.channel = 1;
       t.scale = glm::vec3(static_cast<float>(roughness));
-      bind(out, "roughness", t);
+      bind_texture(out, "roughness", t);
       t.channel = 2;
       t.scale = glm::vec3(static_cast<float>(metallic));
-      bind(out, "metallic", t);
+      bind_texture(out, "metallic", t);
     }
   }
 

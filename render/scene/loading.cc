@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "render/files/files.h"
+#include "render/json/json.h"
 #include "render/scene/ies.h"
 
 namespace likeness::scene {
@@ -40,6 +41,14 @@ std::size_t lift_negative(std::vector<float>& texels) {
   return count;
 }
 
+// A file may name another by anything: what is no name must not become a part of one, or of a message.
+void check_name(const std::filesystem::path& file) {
+  const std::string name = file.string();
+  for (const char c : name)
+    if (static_cast<unsigned char>(c) < 0x20)
+      throw files::InputError(json::plain(name) + ": has a control character in its name; expected the name of a file");
+}
+
 }  // namespace
 
 template <class Read>
@@ -67,7 +76,13 @@ Index Loading::once(const std::string& key, bool is_light, Read&& read) {
   return at->second;
 }
 
+std::string Loading::bytes(const std::filesystem::path& file, std::size_t limit) {
+  check_name(file);
+  return access_.bytes(file, limit);
+}
+
 Index Loading::image(const std::filesystem::path& file, bool is_light) {
+  check_name(file);
   return once(file.lexically_normal().string(), is_light, [&] { return access_.texels(file); });
 }
 
@@ -79,7 +94,7 @@ Index Loading::profile(const std::filesystem::path& file) {
   const std::string key = file.lexically_normal().string();
   auto [at, fresh] = profiles_.try_emplace(key, kNone);
   if (fresh) {
-    scene_.profiles.push_back(profile_of(access_.bytes(file, kMostProfileBytes), key));
+    scene_.profiles.push_back(profile_of(bytes(file, kMostProfileBytes), key));
     at->second = static_cast<Index>(scene_.profiles.size() - 1);
   }
   return at->second;

@@ -31,7 +31,7 @@ class Loading {
   Loading(Scene& scene, const Access& access) : scene_(scene), access_(access) {}
 
   Scene& scene() { return scene_; }
-  std::string bytes(const std::filesystem::path& file, std::size_t limit) { return access_.bytes(file, limit); }
+  std::string bytes(const std::filesystem::path& file, std::size_t limit);
 
   // The picture's index in the scene. Texels that are no numbers become 0, those beyond any light the largest; where
   // the picture is light, negative ones become 0 too.

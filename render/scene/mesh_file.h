@@ -43,6 +43,6 @@ void read_mtl(std::string_view bytes, const std::filesystem::path& file, Loading
 Mesh shape_mesh(const std::string& shape, const glm::dvec3& size, int segments);
 
 // Gives a row of the material's model, by name, to a texture, instead of one that it may have had.
-void bind(Material& material, std::string_view parameter, const Texture& texture);
+void bind_texture(Material& material, std::string_view parameter, const Texture& texture);
 
 }  // namespace likeness::scene

@@ -57,7 +57,7 @@ void read_parameter(const Fields& fields, const Value& value, const std::filesys
     const auto row = std::find_if(rows.begin(), rows.end(), [&](const auto& one) { return one.row.name == value.key; });
     if (row == rows.end()) refuse(material::assign(out.brdf, value.key, {}));
     const Fields inner(fields.source(), value, kTextureSection, path + json::plain(value.key));
-    bind(out, value.key, texture_of(inner, {row->row.channels == 3, false}, folder, loading));
+    bind_texture(out, value.key, texture_of(inner, {row->row.channels == 3, false}, folder, loading));
     return;
   }
   std::vector<double> channels;

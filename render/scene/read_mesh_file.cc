@@ -33,7 +33,7 @@ MeshFile read_mesh_file(const std::filesystem::path& file, const std::string& pa
   return out;
 }
 
-void bind(Material& material, std::string_view parameter, const Texture& texture) {
+void bind_texture(Material& material, std::string_view parameter, const Texture& texture) {
   std::size_t index = 0, row = 0;
   std::visit(
       [&](const auto& model) {

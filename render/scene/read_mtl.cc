@@ -73,7 +73,9 @@ void read_mtl(std::string_view bytes, const std::filesystem::path& file, Loading
     if (out.empty()) continue;
     Material& material = out.back();
     auto& callisto = std::get<Callisto>(material.brdf);
-    const auto map = [&](std::string_view name, bool is_color) { bind(material, name, texture(is_color, false)); };
+    const auto map = [&](std::string_view name, bool is_color) {
+      bind_texture(material, name, texture(is_color, false));
+    };
     if (key == "Kd") {
       const glm::dvec3 c = glm::dvec3(numbers(key));
       callisto.base_color = brdf::Rgb<double>{within(c.x, 0, 1), within(c.y, 0, 1), within(c.z, 0, 1)};
