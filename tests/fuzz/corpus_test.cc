@@ -7,6 +7,7 @@
 #include "render/files/files.h"
 #include "tests/fit/measured_files.h"
 #include "tests/fuzz/feed.h"
+#include "tests/render/scene/small_files.h"
 
 // What the fuzzers run, without libFuzzer: every file of the corpus, and damaged copies of small valid files.
 namespace likeness::measured::test {
@@ -25,7 +26,13 @@ std::vector<Seed> seeds() {
           {"mbsdf", small_mbsdf()},
           {"rgl", small_rgl()},
           {"csv", small_csv()},
-          {"table", small_table()}};
+          {"table", small_table()},
+          {"scene", scene::test::small_scene()},
+          {"glb", scene::test::small_glb()},
+          {"ply", scene::test::small_ply()},
+          {"ply", scene::test::small_binary_ply()},
+          {"obj", scene::test::small_obj()},
+          {"ies", scene::test::small_ies()}};
 }
 
 TEST(Corpus, EveryFileIsReadOrRefused) {
@@ -37,7 +44,7 @@ TEST(Corpus, EveryFileIsReadOrRefused) {
         feed(entry.path().parent_path().filename().string(), likeness::files::read_whole(entry.path(), 1 << 20)));
     ++files;
   }
-  EXPECT_GE(files, 12);
+  EXPECT_GE(files, 22);
 }
 
 TEST(Corpus, ValidSeedsAreAccepted) {

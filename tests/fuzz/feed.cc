@@ -30,6 +30,8 @@ bool usable(const Rgb& f) { return f.r >= 0 && f.g >= 0 && f.b >= 0 && std::isfi
 
 bool feed(std::string_view format, std::string_view bytes) {
   if (format == "table") return feed_table(bytes);
+  for (const std::string_view of_scenes : {"scene", "glb", "ply", "obj", "ies"})
+    if (format == of_scenes) return feed_scene(format, bytes);
   std::unique_ptr<Material> material;
   try {
     material = parsed(format, bytes);

@@ -3,6 +3,7 @@
 
 #include "render/files/files.h"
 #include "tests/fit/measured_files.h"
+#include "tests/render/scene/small_files.h"
 
 // write_corpus FOLDER: the valid seeds from which the files of tests/fuzz/corpus begin.
 int main(int count, char** arguments) {
@@ -26,4 +27,14 @@ int main(int count, char** arguments) {
                      "\xef\xbb\xbf\"light_x\",light_y, light_z ,color\r\n0.6,0,0.8,\"0.25\"\r\n\r\n0,0,+1e0,1\r\n");
   files::write_whole(folder / "table" / "extremes.csv", "x,ref_g\nnan,inf\n1e999,-1e-999\n4.9e-324,-0\n");
   files::write_whole(folder / "table" / "not_unit.csv", "light_x\n0.5\n");
+  files::write_whole(folder / "scene" / "small.json", scene::test::small_scene());
+  files::write_whole(folder / "glb" / "square.glb", scene::test::small_glb());
+  files::write_whole(folder / "glb" / "ring.glb", scene::test::small_glb("\"children\": [1]", "\"children\": [0]"));
+  files::write_whole(folder / "glb" / "far_index.glb", scene::test::small_glb("\"count\": 6", "\"count\": 600000000"));
+  files::write_whole(folder / "ply" / "text.ply", scene::test::small_ply());
+  files::write_whole(folder / "ply" / "binary.ply", scene::test::small_binary_ply());
+  files::write_whole(folder / "obj" / "square.obj", scene::test::small_obj());
+  files::write_whole(folder / "ies" / "quadrant.ies", scene::test::small_ies());
+  files::write_whole(folder / "ies" / "side.ies", scene::test::small_ies("90 180 270"));
+  files::write_whole(folder / "ies" / "tilted.ies", scene::test::small_ies("0", "TILT=INCLUDE\n1\n2\n0 90\n1 0.8\n"));
 }
