@@ -78,10 +78,11 @@ float area_of(const scene::RectangleLight& light) { return 4 * glm::length(light
 glm::vec3 normal_of(const scene::RectangleLight& light) {
   return glm::normalize(glm::cross(light.half_u, light.half_v));
 }
-// From so far away that all of it is seen at the same angle, by its area.
+// From so far away that all of it is seen at the same angle, by its area. A strip is far if its length is.
 bool is_far(const scene::RectangleLight& light, const glm::vec3& point) {
   const glm::vec3 way = light.center - point;
-  return area_of(light) < 1e-4f * glm::dot(way, way);
+  const float longest2 = std::max(glm::dot(light.half_u, light.half_u), glm::dot(light.half_v, light.half_v));
+  return longest2 < 2.5e-5f * glm::dot(way, way);
 }
 bool is_behind(const scene::RectangleLight& light, const glm::vec3& point) {
   return !light.two_sided && glm::dot(point - light.center, normal_of(light)) <= 0;
