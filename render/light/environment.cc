@@ -17,6 +17,9 @@ constexpr int kMostColumns = 1024;  // of the grid that directions are chosen by
 
 float brightness(const glm::vec3& c) { return 0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b; }
 
+// Of the angle to the poles: d.y has lost it there.
+float sine_of(const glm::vec3& d) { return std::sqrt(d.x * d.x + d.z * d.z); }
+
 }  // namespace
 
 Environment::Environment(const scene::Scene& scene, const scene::Environment& environment)
@@ -40,7 +43,8 @@ Environment::Environment(const scene::Scene& scene, const scene::Environment& en
     const double sine = std::sin((y + 0.5) / height * std::numbers::pi);
     for (int x = 0; x < width; ++x) {
       const glm::vec3 c = texture::color_of(*image_, transfer_, x, y);
-      sum += sine * glm::dvec3(c), area += sine;
+      if (std::isfinite(c.r) && std::isfinite(c.g) && std::isfinite(c.b)) sum += sine * glm::dvec3(c);
+      area += sine;
       float& cell = at(std::min(x / block, columns - 1), std::min(y / block, rows - 1));
       cell = std::max(cell, std::max(brightness(c), 0.0f));
     }
@@ -62,7 +66,7 @@ Environment::Environment(const scene::Scene& scene, const scene::Environment& en
 
 glm::vec2 Environment::place_of(const glm::vec3& d) const {
   const float u = 0.5f + (std::atan2(d.x, -d.z) + turn_) / (2 * kPi);
-  return {u - std::floor(u), std::acos(std::clamp(d.y, -1.0f, 1.0f)) / kPi};
+  return {u - std::floor(u), std::atan2(sine_of(d), d.y) / kPi};
 }
 glm::vec3 Environment::direction_at(const glm::vec2& place) const {
   const float phi = (place.x - 0.5f) * 2 * kPi - turn_, theta = place.y * kPi, sine = std::sin(theta);
@@ -90,7 +94,7 @@ Environment::Choice Environment::sample(const glm::vec2& u) const {
   return {direction_at(point.at), point.density / (2 * kPi * kPi * sine)};
 }
 float Environment::pdf(const glm::vec3& direction) const {
-  const float sine = std::sqrt(std::max(1 - direction.y * direction.y, 0.0f));
+  const float sine = sine_of(direction);
   return sine > 0 ? cells_.density(place_of(direction)) / (2 * kPi * kPi * sine) : 0.0f;
 }
 
