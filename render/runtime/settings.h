@@ -5,6 +5,8 @@
 #include <span>
 #include <string_view>
 
+#include "render/plan/plan.h"
+
 // How good a frame is to be: one level for each effect that can be had at several prices.
 namespace likeness::runtime {
 
@@ -24,13 +26,14 @@ struct Settings {
   std::uint32_t seed = 0;
 };
 
-// A setting, its levels from the cheapest to the best, and the effect of the plan without which it does nothing: the one
-// list that the command line, the quality file, the cost page and the docs are made of.
+// A setting, its levels from the cheapest to the best, and whether a plan has what it works on: the one list that the
+// command line, the quality file, the cost page and the docs are made of.
 struct SettingRow {
   std::string_view name, text;
   std::span<const std::string_view> levels;
   void (*apply)(Settings& settings, std::size_t level);
   std::size_t (*level_of)(const Settings& settings);
+  bool (*matters)(const plan::Plan& plan);
 };
 
 namespace detail {
@@ -47,14 +50,19 @@ constexpr std::size_t level_of(int count) {
 inline constexpr std::array kSettings{
     SettingRow{"pixel_samples", "points in each pixel", detail::kCounts,
                [](Settings& s, std::size_t level) { s.pixel_samples = detail::count_of(level); },
-               [](const Settings& s) { return detail::level_of(s.pixel_samples); }},
+               [](const Settings& s) { return detail::level_of(s.pixel_samples); },
+               [](const plan::Plan&) { return true; }},
     SettingRow{"light_samples", "shadow rays to each light with an area, for each point", detail::kCounts,
                [](Settings& s, std::size_t level) { s.light_samples = detail::count_of(level); },
-               [](const Settings& s) { return detail::level_of(s.light_samples); }},
+               [](const Settings& s) { return detail::level_of(s.light_samples); },
+               [](const plan::Plan& plan) {
+                 return plan.has(plan::Effect::kAreaLights) || plan.has(plan::Effect::kEmission);
+               }},
     SettingRow{"environment", "light of the environment's picture: maps without shadows, or rays",
                detail::kEnvironments,
                [](Settings& s, std::size_t level) { s.environment = static_cast<EnvironmentLevel>(level); },
-               [](const Settings& s) { return static_cast<std::size_t>(s.environment); }},
+               [](const Settings& s) { return static_cast<std::size_t>(s.environment); },
+               [](const plan::Plan& plan) { return plan.has(plan::Effect::kEnvironment); }},
 };
 
 }  // namespace likeness::runtime
