@@ -118,7 +118,8 @@ int run(const Request& request) {
     image::write_layers(paths.state, rendered.state(full_key(request, scene, options, force)));
     rendered.state = nullptr;  // gives back the film
   }
-  const std::string metadata = metadata_of(scene, plan, options, request.integrator, rendered);
+  const std::string metadata =
+      metadata_of(fs::path(request.scene).filename().string(), scene, plan, options, request.integrator, rendered);
   rendered.layers.metadata = metadata;
   image::write_layers(paths.picture, rendered.layers);
   if (!rendered.is_interrupted) fs::remove(paths.state, ignored);

@@ -41,11 +41,11 @@ std::size_t peak_memory() {
   return static_cast<std::size_t>(usage.ru_maxrss) * 1024;
 }
 
-std::string metadata_of(const scene::Scene& scene, const plan::Plan& plan, const reference::Options& options,
-                        const std::string& integrator, const Rendered& rendered) {
+std::string metadata_of(const std::string& file, const scene::Scene& scene, const plan::Plan& plan,
+                        const reference::Options& options, const std::string& integrator, const Rendered& rendered) {
   const scene::Camera& camera = scene.cameras[options.camera];
   Json out;
-  out["scene"] = scene.name;
+  out["scene"] = file;
   out["camera"] = {{"index", options.camera}, {"name", camera.name}};
   out["size"] = {camera.width, camera.height};
   out["integrator"] = integrator;

@@ -15,8 +15,8 @@ struct Times {
 };
 
 // What was made of what, and by what: the same for the same command on the same files. JSON, for the EXR.
-std::string metadata_of(const scene::Scene& scene, const plan::Plan& plan, const reference::Options& options,
-                        const std::string& integrator, const Rendered& rendered);
+std::string metadata_of(const std::string& file, const scene::Scene& scene, const plan::Plan& plan,
+                        const reference::Options& options, const std::string& integrator, const Rendered& rendered);
 
 // The same with times, memory and files. JSON, for --json.
 std::string summary_json(const std::string& metadata, const Paths& paths, const Rendered& rendered, const Times& times);

@@ -66,6 +66,8 @@ std::string kernel_text(const MaterialPlan& material) {
   return parts.empty() ? "one specular lobe" : "one specular lobe, " + parts;
 }
 
+std::string features_text(const MaterialPlan& material) { return joined(features_of(material)); }
+
 std::string text_of(const Plan& plan, const Costs* costs) {
   std::string out = "Effects that are on: ";
   const auto on =
@@ -94,7 +96,7 @@ std::string text_of(const Plan& plan, const Costs* costs) {
     const MaterialPlan& m = plan.materials[i];
     out += "  " + padded(m.name.empty() ? std::to_string(i) : m.name, widest + 2) + padded(m.model, 18) +
            "kernel: " + kernel_text(m);
-    if (const std::string features = joined(features_of(m)); !features.empty()) out += "; " + features;
+    if (const std::string features = features_text(m); !features.empty()) out += "; " + features;
     out += "\n";
   }
   return out;
@@ -133,7 +135,7 @@ std::string digest_of(const Plan& plan) {
   for (const EffectRow& row : kEffects)
     if (plan.has(row.effect)) text += std::string(row.name) + " ";
   for (const MaterialPlan& m : plan.materials)
-    text += m.model + " " + std::to_string(m.callisto_parts) + " " + joined(features_of(m)) + ";";
+    text += m.model + " " + std::to_string(m.callisto_parts) + " " + features_text(m) + ";";
   return files::sha256(text);
 }
 

@@ -25,6 +25,9 @@ inline constexpr std::size_t kCallistoParts = 6;
 // The effects of a material's kernel, in words: "diffuse, second_lobe"; of other models their name.
 std::string kernel_text(const MaterialPlan& material);
 
+// What a material has besides: "textures, normal map".
+std::string features_text(const MaterialPlan& material);
+
 // Tables for a terminal. `costs` may be null.
 std::string text_of(const Plan& plan, const Costs* costs);
 std::string json_of(const Plan& plan, const std::string& scene, const Costs* costs);
