@@ -7,6 +7,7 @@
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 
 #include "render/light/area.h"
 #include "render/light/profile.h"
@@ -46,6 +47,9 @@ Lights::Lights(const scene::Scene& scene) : scene_(&scene), emitter_of_(scene.in
     Emitter emitter;
     emitter.instance = static_cast<scene::Index>(i);
     emitter.radiance = material.emission;
+    const glm::mat3 linear(instance.world_from_object);
+    emitter.normal_from_object = glm::transpose(glm::inverse(linear));
+    emitter.is_mirrored = glm::determinant(linear) < 0;
     glm::vec3 low(INFINITY), high(-INFINITY);
     for (const auto& triangle : mesh.triangles) {
       std::array<glm::vec3, 3> p;
@@ -121,26 +125,40 @@ Sample Lights::sample_light(std::size_t index, const glm::vec3& point, const glm
 Sample Lights::sample_emitter(const Emitter& emitter, const glm::vec3& point, const glm::vec2& u) const {
   const auto triangle = emitter.triangles.choose(u.x);
   const glm::vec3* p = emitter.corners.data() + 3 * triangle.index;
-  const float root = std::sqrt(triangle.rest), b = u.y * root, a = 1 - root;  // of corners 1 and 0
-  const glm::vec3 on_light = a * p[0] + (root - b) * p[1] + b * p[2];
+  const float root = std::sqrt(triangle.rest), b = 1 - root, d = u.y * root, c = root - d;  // weights of the corners
+  const glm::vec3 on_light = b * p[0] + c * p[1] + d * p[2];
   const glm::vec3 way = on_light - point;
   const float distance2 = glm::dot(way, way), distance = std::sqrt(distance2);
-  const glm::vec3 cross = glm::cross(p[1] - p[0], p[2] - p[0]);
-  const float twice_area = glm::length(cross);
+  glm::vec3 front = glm::cross(p[1] - p[0], p[2] - p[0]);
+  const float twice_area = glm::length(front);
   if (!(distance2 > 0) || !(twice_area > 0)) return {};
   const scene::Instance& instance = scene_->instances[emitter.instance];
   const scene::Material& material = scene_->materials[instance.material];
-  const float facing = -glm::dot(way, cross) / (distance * twice_area);
+  const scene::Mesh& mesh = scene_->meshes[instance.mesh];
+  const auto& corners = mesh.triangles[triangle.index];
+  if (!material.two_sided) {  // as surface::Surfaces has it
+    if (emitter.is_mirrored) front = -front;
+    if (!mesh.normals.empty()) {
+      const glm::vec3 normal =
+          emitter.normal_from_object *
+          (b * mesh.normals[corners[0]] + c * mesh.normals[corners[1]] + d * mesh.normals[corners[2]]);
+      if (glm::dot(normal, front) < 0) front = -front;
+    }
+  }
+  const float facing = -glm::dot(way, front) / (distance * twice_area);
   const float cosine = material.two_sided ? std::abs(facing) : facing;
   if (!(cosine > 0)) return {};
+  const glm::vec2 uv =
+      mesh.uvs.empty() ? glm::vec2(0) : b * mesh.uvs[corners[0]] + c * mesh.uvs[corners[1]] + d * mesh.uvs[corners[2]];
+  const auto image_of = [&](const scene::Texture& texture) -> const scene::Image& {
+    return scene_->images[texture.image];
+  };
+  if (material.opacity &&
+      !(texture::number_at(image_of(*material.opacity), *material.opacity, uv) >= material.opacity_cutoff))
+    return {};
   glm::vec3 radiance = emitter.radiance;
-  const scene::Mesh& mesh = scene_->meshes[instance.mesh];
-  if (material.emission_map && !mesh.uvs.empty()) {
-    const auto& corners = mesh.triangles[triangle.index];
-    const glm::vec2 uv = a * mesh.uvs[corners[0]] + (root - b) * mesh.uvs[corners[1]] + b * mesh.uvs[corners[2]];
-    radiance *= glm::max(texture::color_at(scene_->images[material.emission_map->image], *material.emission_map, uv),
-                         glm::vec3(0));
-  }
+  if (material.emission_map)
+    radiance *= glm::max(texture::color_at(image_of(*material.emission_map), *material.emission_map, uv), glm::vec3(0));
   const float pdf = triangle.probability / (0.5f * twice_area) * distance2 / cosine;
   return {way / distance, distance, radiance / pdf, pdf, 0};
 }

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
@@ -38,6 +39,8 @@ struct Emitter {
   glm::vec3 center{0, 0, 0};
   float reach = 0;  // radius of a sphere about it
   float area = 0;
+  glm::mat3 normal_from_object{1};
+  bool is_mirrored = false;  // by its instance, so that the order of corners says the other side
 };
 
 class Lights {
@@ -84,7 +87,6 @@ class Lights {
   std::vector<Emitter> emitters_;
   std::vector<std::size_t> emitter_of_;  // of each instance; npos: it does not emit
   std::optional<Environment> environment_;
-  float extent_ = 1;  // [m] of the scene, for the brightness of what is infinitely far
 };
 
 }  // namespace likeness::light
