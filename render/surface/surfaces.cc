@@ -15,7 +15,7 @@ namespace {
 
 constexpr float kPi = std::numbers::pi_v<float>;
 
-// Longitude and latitude of a direction, as scene::Environment has them: u to the right, v down from the top.
+// Longitude and latitude of a place on a sphere: u to the right as seen from outside, 1/2 at +z; v down from the top.
 glm::vec2 uv_of_sphere(const glm::vec3& n) {
   return {0.5f + std::atan2(n.x, n.z) / (2 * kPi), std::acos(std::clamp(n.y, -1.0f, 1.0f)) / kPi};
 }
@@ -55,7 +55,7 @@ Surfaces::Surfaces(const scene::Scene& scene, const ray::Tracer& tracer, const s
     const glm::mat3 linear(instance.world_from_object);
     placed_.push_back({&scene.meshes[instance.mesh], &materials[instance.material],
                        tracer.vertices(static_cast<scene::Index>(i)), glm::transpose(glm::inverse(linear)), linear,
-                       glm::vec3(instance.world_from_object[3]), glm::length(linear[0])});
+                       glm::vec3(instance.world_from_object[3]), glm::length(linear[0]), glm::determinant(linear) < 0});
   }
 }
 
@@ -84,7 +84,7 @@ void Surfaces::at(const ray::Ray& ray, const ray::Hit& hit, Point& p) const {
     const glm::vec3 a = corner(placed.vertices, corners[0]), b = corner(placed.vertices, corners[1]),
                     c = corner(placed.vertices, corners[2]);
     p.position = w * a + u * b + v * c;
-    p.normal = normalized_or(glm::cross(b - a, c - a), to_view);
+    p.normal = normalized_or(placed.is_mirrored ? glm::cross(c - a, b - a) : glm::cross(b - a, c - a), to_view);
     normal = p.normal;
     if (!mesh.normals.empty()) {
       const glm::vec3 smooth =
@@ -112,9 +112,10 @@ void Surfaces::at(const ray::Ray& ray, const ray::Hit& hit, Point& p) const {
         tangent = placed.world_from_object *
                   (w * glm::vec3(mesh.tangents[corners[0]]) + u * glm::vec3(mesh.tangents[corners[1]]) +
                    v * glm::vec3(mesh.tangents[corners[2]]));
-        side = mesh.tangents[corners[0]].w;
+        side = placed.is_mirrored ? -mesh.tangents[corners[0]].w : mesh.tangents[corners[0]].w;
       } else if (mesh.is_sphere) {
-        tangent = glm::cross(placed.world_from_object[1], normal);
+        tangent = glm::cross(placed.world_from_object[1], p.is_back ? -normal : normal);
+        if (placed.is_mirrored) tangent = -tangent, side = -1;
       }
       tangent -= glm::dot(tangent, normal) * normal;
       const ray::Frame plain(normal);

@@ -71,6 +71,7 @@ class Surfaces {
     glm::mat3 normal_from_object, world_from_object;
     glm::vec3 center;  // of a sphere
     float radius;
+    bool is_mirrored;  // the order of corners says the other side
   };
   std::vector<Placed> placed_;
 };
