@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <embree3/rtcore.h>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 
@@ -55,6 +56,12 @@ void filter(const RTCFilterFunctionNArguments* a) {
     if (!context.cut_outs.is_solid(context.cut_outs.context, context.instance, hit.primID, hit.u, hit.v))
       a->valid[i] = 0;
   }
+}
+
+// Whether Embree may be given a ray. It ends the process, by an assertion, at what is no number or beyond 1.8e18.
+bool is_sound(const Ray& ray) {
+  const glm::vec3 sum = glm::abs(ray.origin) + glm::abs(ray.direction);
+  return ray.near <= ray.far && sum.x + sum.y + sum.z <= 1e18f;
 }
 
 template <class Packet>
@@ -113,7 +120,7 @@ void closest_in_packets(RTCScene scene, std::span<const Ray> rays, std::span<Hit
     bool any = false;
     for (unsigned i = 0; i < kSize; ++i) {
       const Ray& ray = rays[first + (i < count ? i : 0)];
-      valid[i] = i < count && ray.near <= ray.far ? -1 : 0;
+      valid[i] = i < count && is_sound(ray) ? -1 : 0;
       any |= valid[i] != 0;
       put(packet.ray, i, ray, kSurfaces | kLights);
       packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
@@ -139,7 +146,7 @@ void occluded_in_packets(RTCScene scene, std::span<const Ray> rays, std::span<st
     bool any = false;
     for (unsigned i = 0; i < kSize; ++i) {
       const Ray& ray = rays[first + (i < count ? i : 0)];
-      valid[i] = i < count && ray.near <= ray.far ? -1 : 0;
+      valid[i] = i < count && is_sound(ray) ? -1 : 0;
       any |= valid[i] != 0;
       put(packet, i, ray, kSurfaces);
     }
@@ -272,6 +279,7 @@ Tracer::Tracer(const scene::Scene& scene, const TracerOptions& options) : state_
 Tracer::~Tracer() = default;
 
 Hit Tracer::closest(const Ray& ray) const {
+  if (!is_sound(ray)) return {};
   RTCIntersectContext context = context_for(false);
   RTCRayHit query{};
   query.ray = ray_of(ray, kSurfaces | kLights);
@@ -284,6 +292,7 @@ Hit Tracer::closest(const Ray& ray) const {
 }
 
 bool Tracer::occluded(const Ray& ray) const {
+  if (!is_sound(ray)) return false;
   RTCIntersectContext context = context_for(false);
   RTCRay query = ray_of(ray, kSurfaces);
   rtcOccluded1(state_->scene, &context, &query);

@@ -61,11 +61,12 @@ class Tracer {
   Tracer& operator=(const Tracer&) = delete;
   ~Tracer();
 
+  // A ray that is empty (far < near), that is no number somewhere or that is farther out than 1e18 meets nothing.
   Hit closest(const Ray& ray) const;
   bool occluded(const Ray& ray) const;
 
   // The same for rays that run close to each other, as those of neighboring pixels and those to one light do: two to
-  // three times as fast. An empty ray (far < near) meets nothing. Spans of equal length.
+  // three times as fast. Spans of equal length.
   void closest(std::span<const Ray> rays, std::span<Hit> hits) const;
   void occluded(std::span<const Ray> rays, std::span<std::uint8_t> is_occluded) const;
 
