@@ -22,6 +22,7 @@
 #include <utility>
 
 #include "render/files/files.h"
+#include "render/image/exr_header.h"
 #include "render/image/exr_part.h"
 #include "render/image/exr_stream.h"
 #include "render/image/read.h"
@@ -147,6 +148,7 @@ void write_layers(const std::filesystem::path& file, const Layers& layers) {
 
 Layers decode_layers(std::string_view bytes, const std::string& name, std::size_t most_values) {
   limit_exr_headers();
+  check_exr_header(bytes, name);
   Layers out;
   with_exr_errors(name, [&] {
     MemoryInput stream(bytes);

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "render/files/files.h"
+#include "render/image/exr_header.h"
 #include "render/image/exr_part.h"
 #include "render/image/exr_stream.h"
 
@@ -146,6 +147,7 @@ bool is_exr(std::string_view bytes) { return bytes.starts_with(std::string_view(
 
 Texels decode_exr(std::string_view bytes, const std::string& name, const ReadOptions& options) {
   limit_exr_headers();
+  check_exr_header(bytes, name);
   Texels out;
   with_exr_errors(name, [&] { out = Reader(bytes, name, options).read(); });
   return out;

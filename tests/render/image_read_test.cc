@@ -195,6 +195,16 @@ TEST(ReadExr, RefusesAbsurdSizesBeforeItAsksForMemory) {
   EXPECT_THAT(error_of(bytes, "small", {.most_texels = 14}), HasSubstr("EXR of 5 x 3 pixels; at most 14 pixels"));
 }
 
+TEST(ReadExr, RefusesAttributesLongerThanTheFile) {
+  std::string bytes = exr_bytes({ExrPart{}});
+  const std::size_t at = bytes.find(std::string("box2i\0", 6)) + 6;
+  bytes[at + 3] = '\x7f';  // its size in the file: 2^31 bytes
+  EXPECT_THAT(error_of(bytes), HasSubstr("attribute \"dataWindow\" has 2130706448 bytes, the file has"));
+  bytes[at + 3] = 0;
+  bytes[at] = 8;
+  EXPECT_THAT(error_of(bytes), HasSubstr("attribute \"dataWindow\" of 8 bytes is no \"box2i\""));
+}
+
 TEST(ReadExr, RefusesEveryFileThatIsCutOff) {
   for (const int tile : {0, 2}) {
     ExrPart part;
