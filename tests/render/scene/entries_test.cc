@@ -102,9 +102,12 @@ TEST(SceneEntries, ACameraLooksAtItsTarget) {
   EXPECT_FLOAT_EQ(c.focus_distance, 3);
 }
 
-TEST(SceneEntries, ACameraThatLooksStraightDownHasMinusZUpwards) {
+TEST(SceneEntries, ACameraThatLooksAlongItsUpHasMinusZUpwards) {
   const Camera c = camera("\"position\": [0, 5, 0], \"target\": [0, 0, 0]");
   expect_near(glm::vec3(c.world_from_camera[1]), {0, 0, -1});
+  const Camera along = camera("\"target\": [1, 0, 0], \"up\": [1, 0, 0]");
+  expect_near(glm::vec3(along.world_from_camera[1]), {0, 0, -1});
+  expect_near(glm::vec3(along.world_from_camera[2]), {-1, 0, 0});
 }
 
 TEST(SceneEntries, ALensIsStatedInMillimetersOrMeters) {
@@ -308,15 +311,20 @@ TEST(SceneEntries, ASceneWithoutCameraGetsOneThatSeesEverything) {
     }
 }
 
-TEST(SceneEntries, WhatNothingUsesIsLeftOut) {
+TEST(SceneEntries, WhatNothingUsesIsLeftOutAndTheRestFollows) {
   const Scene scene = scene_of_members(
-      "\"meshes\": {\"g\": {\"file\": \"square.glb\"}, \"x\": {\"file\": \"none.glb\"}}, \"materials\": {\"m\": {}, "
-      "\"y\": {\"file\": \"none\"}}, "
-      "\"instances\": [{\"mesh\": \"g\", \"material\": \"m\"}]");
-  EXPECT_EQ(scene.materials.size(), 1u);
-  EXPECT_EQ(scene.materials[0].name, "m");
-  EXPECT_EQ(scene.images.size(), 0u);
+      "\"meshes\": {\"g\": {\"file\": \"square.glb\"}, \"x\": {\"file\": \"none.glb\"}}, \"materials\": {\"m\": "
+      "{\"parameters\": "
+      "{\"metallic\": {\"file\": \"grey.png\"}}, \"normal_map\": {\"file\": \"rgb.png\"}}, \"y\": {\"file\": "
+      "\"none\"}}, "
+      "\"instances\": [{\"mesh\": \"g\", \"material\": \"m\"}], \"environment\": {\"file\": \"light.hdr\"}");
   EXPECT_EQ(fault_of(scene), "");
+  ASSERT_EQ(scene.materials.size(), 1u);  // the glTF's own and its picture are not used
+  EXPECT_EQ(scene.materials[0].name, "m");
+  ASSERT_EQ(scene.images.size(), 3u);
+  EXPECT_EQ(scene.images[scene.materials[0].bindings.at(0).texture.image].name, "grey.png");
+  EXPECT_EQ(scene.images[scene.materials[0].normal_map->image].name, "rgb.png");
+  EXPECT_EQ(scene.images[scene.environment->image].name, "light.hdr");
 }
 
 }  // namespace

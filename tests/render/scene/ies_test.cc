@@ -52,9 +52,9 @@ TEST(Profiles, QuadrantsAndHalvesAreCompleted) {
   const Profile half = profile_of(small_ies("0 45 90 180"), "a.ies");
   EXPECT_THAT(half.horizontal_deg, ElementsAre(0, 45, 90, 180, 270, 315, 360));
   EXPECT_THAT(planes(half), ElementsAre(100, 110, 120, 130, 120, 110, 100));
-  const Profile side = profile_of(small_ies("90 135 180 270"), "a.ies");
-  EXPECT_THAT(side.horizontal_deg, ElementsAre(0, 45, 90, 135, 180, 270, 360));
-  EXPECT_THAT(planes(side), ElementsAre(120, 110, 100, 110, 120, 130, 120));
+  const Profile side = profile_of(small_ies("90 135 180 225 270"), "a.ies");
+  EXPECT_THAT(side.horizontal_deg, ElementsAre(0, 45, 90, 135, 180, 225, 270, 315, 360));
+  EXPECT_THAT(planes(side), ElementsAre(120, 110, 100, 110, 120, 130, 140, 130, 120));
   const Profile whole = profile_of(small_ies("0 90 180 270 360"), "a.ies");
   EXPECT_THAT(whole.horizontal_deg, ElementsAre(0, 90, 180, 270, 360));
   const Profile open = profile_of(small_ies("0 90 180 270"), "a.ies");  // 360 left out, as some files do

@@ -145,6 +145,8 @@ TEST(Shapes, AreSoundAndFaceOutwards) {
       const glm::vec3 u = mesh.positions[b] - mesh.positions[a], v = mesh.positions[c] - mesh.positions[a];
       const glm::vec3 n = glm::cross(u, v);
       EXPECT_GT(glm::dot(n, mesh.normals[a] + mesh.normals[b] + mesh.normals[c]), 0) << shape;
+      const bool is_closed = shape == "box" || shape == "faceted_sphere";
+      EXPECT_GT(glm::dot(n, is_closed ? mesh.positions[a] + mesh.positions[b] : glm::vec3(0, 1, 0)), 0) << shape;
       // Where the texture is not squeezed to a point, tangents go along u, and cross(n, t) w against v.
       const glm::vec2 p = mesh.uvs[b] - mesh.uvs[a], q = mesh.uvs[c] - mesh.uvs[a];
       const float area = p.x * q.y - q.x * p.y;
