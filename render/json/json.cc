@@ -1,41 +1,16 @@
 #include "render/json/json.h"
 
 #include <algorithm>
-#include <iterator>
 #include <unordered_map>
 #include <nlohmann/json.hpp>
 
 #include "render/files/files.h"
+#include "render/json/cursor.h"
 
 namespace likeness::json {
 namespace {
 
 using Parser = nlohmann::json;
-
-// A pointer into the text that tells how far the parser has read, because its events carry no position.
-struct Cursor {
-  using iterator_category = std::input_iterator_tag;
-  using value_type = char;
-  using difference_type = std::ptrdiff_t;
-  using pointer = const char*;
-  using reference = const char&;
-
-  const char* at;
-  const char** seen;
-
-  reference operator*() const { return *at; }
-  Cursor& operator++() {
-    *seen = ++at;
-    return *this;
-  }
-  Cursor operator++(int) {
-    Cursor old = *this;
-    ++*this;
-    return old;
-  }
-  bool operator==(const Cursor& other) const { return at == other.at; }
-  bool operator!=(const Cursor& other) const { return at != other.at; }
-};
 
 // Takes the parser's events; returning true goes on, refuse() throws.
 class Builder {
@@ -67,15 +42,7 @@ class Builder {
     return true;
   }
   bool parse_error(std::size_t byte, const std::string&, const Parser::exception& error) {
-    // "[json.exception.parse_error.101] parse error at line 2, column 3: syntax error ...": the last part alone.
-    std::string text = error.what();
-    if (const auto at = text.find("] "); at != std::string::npos) text.erase(0, at + 2);
-    if (text.starts_with("parse error at"))
-      if (const auto at = text.find(": "); at != std::string::npos) text.erase(0, at + 2);
-    if (text.size() > 160) text = text.substr(0, 160) + "...";
-    std::replace(text.begin(), text.end(), '\n', ' ');
-    refuse(1 + static_cast<std::size_t>(std::count(begin_, begin_ + (byte > 0 ? byte - 1 : 0), '\n')),
-           "not JSON (byte " + std::to_string(byte) + "): " + text);
+    refuse(line_of_byte(begin_, byte), syntax_text(byte, error.what()));
   }
 
  private:

@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <array>
-#include <iterator>
 #include <span>
 #include <stdexcept>
 #include <vector>
 #include <nlohmann/json.hpp>
 
 #include "render/files/files.h"
+#include "render/json/cursor.h"
+#include "render/json/json.h"
 #include "render/material/parameters.h"
 
 namespace likeness::material {
@@ -20,31 +21,6 @@ constexpr std::string_view kFormat = "likeness material";
 constexpr int kVersion = 1;
 constexpr std::array<std::string_view, 5> kKeys{"format", "version", "name", "model", "parameters"};
 
-// A pointer into the text that tells how far the parser has read, because its events carry no position.
-struct Cursor {
-  using iterator_category = std::input_iterator_tag;
-  using value_type = char;
-  using difference_type = std::ptrdiff_t;
-  using pointer = const char*;
-  using reference = const char&;
-
-  const char* at;
-  const char** seen;
-
-  reference operator*() const { return *at; }
-  Cursor& operator++() {
-    *seen = ++at;
-    return *this;
-  }
-  Cursor operator++(int) {
-    Cursor old = *this;
-    ++*this;
-    return old;
-  }
-  bool operator==(const Cursor& other) const { return at == other.at; }
-  bool operator!=(const Cursor& other) const { return at != other.at; }
-};
-
 // A parameter as the text gives it. It can be judged only when the model is known, which may come later.
 struct Given {
   std::string name;
@@ -53,19 +29,13 @@ struct Given {
   bool list = false;
 };
 
-// A key of the text as it may stand in a message.
-std::string plain(std::string_view key) {
-  const std::string text = in_quotes(key);
-  return text.substr(1, text.size() - 2);
-}
-
 // Takes the parser's events in the order of the text, and refuses the first that does not belong there. A tree
 // of values would lose duplicate keys and line numbers.
 class Reader {
  public:
   Reader(std::string_view text, std::string source) : begin_(text.data()), seen_(begin_), source_(std::move(source)) {
     const char* end = begin_ + text.size();
-    Json::sax_parse(Cursor{begin_, &seen_}, Cursor{end, &seen_}, this);
+    Json::sax_parse(json::Cursor{begin_, &seen_}, json::Cursor{end, &seen_}, this);
   }
 
   Material material() const {
@@ -136,8 +106,8 @@ class Reader {
     if (place_ == Place::kParameters) {
       for (const Given& given : given_)
         if (given.name == value)
-          refuse(line(),
-                 "/parameters/" + plain(value) + " is given twice (first in line " + std::to_string(given.line) + ")");
+          refuse(line(), "/parameters/" + json::plain(value) + " is given twice (first in line " +
+                             std::to_string(given.line) + ")");
       if (given_.size() == kMostParameters)
         refuse(line(),
                "/parameters has more than " + std::to_string(kMostParameters) + " entries; no model has as many");
@@ -147,7 +117,7 @@ class Reader {
     const auto* found = std::find(kKeys.begin(), kKeys.end(), value);
     if (found == kKeys.end()) {
       const std::string near = files::nearest_name(std::string_view(value).substr(0, 60), kKeys.data(), kKeys.size());
-      refuse(line(), "/" + plain(value) + " is not a key of a material file" +
+      refuse(line(), "/" + json::plain(value) + " is not a key of a material file" +
                          (near.empty() ? "; keys are format, version, name, model, parameters"
                                        : "; did you mean \"" + near + "\"?"));
     }
@@ -159,15 +129,7 @@ class Reader {
   }
 
   bool parse_error(std::size_t byte, const std::string&, const Json::exception& error) {
-    // "[json.exception.parse_error.101] parse error at line 2, column 3: syntax error ...": the last part alone.
-    std::string text = error.what();
-    if (const auto at = text.find("] "); at != std::string::npos) text.erase(0, at + 2);
-    if (text.starts_with("parse error at"))
-      if (const auto at = text.find(": "); at != std::string::npos) text.erase(0, at + 2);
-    if (text.size() > 160) text = text.substr(0, 160) + "...";
-    std::replace(text.begin(), text.end(), '\n', ' ');
-    refuse(1 + static_cast<std::size_t>(std::count(begin_, begin_ + (byte > 0 ? byte - 1 : 0), '\n')),
-           "not JSON (byte " + std::to_string(byte) + "): " + text);
+    refuse(json::line_of_byte(begin_, byte), json::syntax_text(byte, error.what()));
   }
 
  private:
@@ -196,7 +158,7 @@ class Reader {
                          (key_ == "version"      ? "a whole number"
                           : key_ == "parameters" ? "an object"
                                                  : "a text"));
-    refuse(line(), "/parameters/" + plain(given_.back().name) +
+    refuse(line(), "/parameters/" + json::plain(given_.back().name) +
                        (place_ == Place::kChannels ? "/" + std::to_string(given_.back().channels.size()) : "") +
                        " is " + what + "; expected a number" +
                        (place_ == Place::kChannels ? "" : " or a list of three"));
@@ -210,8 +172,8 @@ class Reader {
     if (place_ != Place::kParameters && place_ != Place::kChannels)
       return unexpected("the number " + number_text(value));
     if (given_.back().channels.size() == kMostChannels)
-      refuse(line(), "/parameters/" + plain(given_.back().name) + " has more than " + std::to_string(kMostChannels) +
-                         " numbers");
+      refuse(line(), "/parameters/" + json::plain(given_.back().name) + " has more than " +
+                         std::to_string(kMostChannels) + " numbers");
     given_.back().channels.push_back(value);
     return true;
   }

@@ -38,6 +38,9 @@ GltfDocument::GltfDocument(std::string_view bytes, const std::filesystem::path& 
   if (bytes.starts_with("glTF")) split_container(bytes, text);
   root_ = json::parse(text, source_, {.values = 4'000'000, .depth = 64});
   if (!root_.is_object()) refuse(root(), " is " + json::kind_text(root_) + "; expected an object");
+  // The root is asked by name for each node of a file; a real one has some twenty members.
+  if (root_.items.size() > 256)
+    refuse(root(), " has " + std::to_string(root_.items.size()) + " members; expected a glTF 2.0 file");
   const Node asset = member(root(), "asset");
   if (!asset) refuse(root(), "/asset is missing; expected a glTF 2.0 file");
   const std::string version = this->text(asset, "version");
@@ -131,13 +134,19 @@ std::size_t GltfDocument::count(std::string_view list) const {
   return value && value->is_list() ? value->items.size() : 0;
 }
 
-GltfDocument::Node GltfDocument::entry(std::string_view list, std::size_t index, const Node& user) const {
-  if (index >= count(list))
-    refuse(user, " names /" + std::string(list) + "/" + std::to_string(index) + ", but there are " +
-                     std::to_string(count(list)));
-  const Node out{&root_.find(list)->items[index], "/" + std::string(list) + "/" + std::to_string(index)};
+GltfDocument::Node GltfDocument::item(const Node& node, std::string_view key, std::size_t index,
+                                      const Node& user) const {
+  const json::Value* list = node ? node.value->find(key) : nullptr;
+  const std::size_t count = list && list->is_list() ? list->items.size() : 0;
+  const std::string path = node.path + "/" + std::string(key) + "/" + std::to_string(index);
+  if (index >= count) refuse(user, " names " + path + ", but there are " + std::to_string(count));
+  const Node out{&list->items[index], path};
   if (!out.value->is_object()) refuse(out, " is " + json::kind_text(*out.value) + "; expected an object");
   return out;
+}
+
+GltfDocument::Node GltfDocument::entry(std::string_view list, std::size_t index, const Node& user) const {
+  return item(root(), list, index, user);
 }
 
 GltfDocument::Node GltfDocument::named(const Node& node, std::string_view key, std::string_view list) const {

@@ -34,6 +34,8 @@ class GltfDocument {
   std::vector<Node> list(const Node& node, std::string_view key) const;
   std::size_t count(std::string_view list) const;  // of a list of the root
   Node entry(std::string_view list, std::size_t index, const Node& user) const;
+  // The same of a list of any object.
+  Node item(const Node& node, std::string_view key, std::size_t index, const Node& user) const;
   // The entry of a list of the root that a number names.
   Node named(const Node& node, std::string_view key, std::string_view list) const;
 

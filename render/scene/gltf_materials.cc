@@ -24,6 +24,8 @@ class Reader {
     Material out;
     out.name = document_.text(node_, "name");
     out.two_sided = document_.flag(node_, "doubleSided");
+    if (document_.has(document_.member(node_, "extensions"), "KHR_materials_unlit"))
+      loading_.repair("unlit materials taken as lit", where());
     read_reflection(out);
     read_normals(out);
     read_emission(out);

@@ -173,7 +173,7 @@ class Reader {
       read_attribute(attributes, "TANGENT", mesh.tangents, count);
       read_triangles(primitive, mode, mesh);
       bytes_ += count * 48 + mesh.triangles.size() * sizeof(mesh.triangles[0]);
-      if (bytes_ > kMostMeshBytes) document_.refuse(primitive, ": with it the meshes of the file take more than 16 GB");
+      if (bytes_ > kMostMeshBytes) document_.refuse(primitive, ": with it the meshes of the file take more than 8 GB");
       out.push_back({out_.meshes.size(), material_of(primitive)});
       out_.meshes.push_back(std::move(mesh));
     }
@@ -253,12 +253,8 @@ class Reader {
   }
 
   void read_light(const Node& user, const std::string& name, const glm::dmat4& world) {
-    const std::vector<Node> all = document_.list(
-        document_.member(document_.member(document_.root(), "extensions"), "KHR_lights_punctual"), "lights");
-    const std::size_t index = document_.whole(user, "light", 0);
-    if (index >= all.size())
-      document_.refuse(user, "/light = " + std::to_string(index) + ", but there are " + std::to_string(all.size()));
-    const Node& node = all[index];
+    const Node all = document_.member(document_.member(document_.root(), "extensions"), "KHR_lights_punctual");
+    const Node node = document_.item(all, "lights", document_.whole(user, "light", 0), user);
     Light out;
     out.name = name.empty() ? document_.text(node, "name") : name;
     const auto color = document_.numbers(node, "color", {1, 1, 1});

@@ -82,8 +82,13 @@ class Reader {
     else if (word == "vn") normals_.push_back(numbers<glm::vec3>(word, 3));
     else if (word == "f") read_face();
     else if (word == "usemtl") group_ = &group_of(std::string(words_.rest()));
-    else if (word == "mtllib") libraries_.insert(std::string(words_.rest()));
+    else if (word == "mtllib") read_library_name();
     else if (word == "o" || word == "g") read_part();
+  }
+
+  void read_library_name() {
+    libraries_.insert(std::string(words_.rest()));
+    if (libraries_.size() > 64) refuse("names more than 64 material libraries");
   }
 
   template <class V>

@@ -123,7 +123,10 @@ TEST(Gltf, EveryIndexIsChecked) {
   EXPECT_THAT(refusal_of("\"children\": [1]", "\"children\": [99]"), HasSubstr("names /nodes/99, but there are 4"));
   EXPECT_THAT(refusal_of("\"scene\": 0", "\"scene\": 3"), HasSubstr("/scene names /scenes/3"));
   EXPECT_THAT(refusal_of("\"camera\": 0", "\"camera\": 1"), HasSubstr("names /cameras/1"));
-  EXPECT_THAT(refusal_of("\"light\": 0", "\"light\": 5"), HasSubstr("/light = 5, but there are 1"));
+  EXPECT_THAT(
+      refusal_of("\"light\": 0", "\"light\": 5"),
+      HasSubstr(
+          "/nodes/3/extensions/KHR_lights_punctual names /extensions/KHR_lights_punctual/lights/5, but there are 1"));
   EXPECT_THAT(refusal_of("\"material\": 0", "\"material\": 2"), HasSubstr("names /materials/2"));
   EXPECT_THAT(refusal_of("\"index\": 0", "\"index\": 9"), HasSubstr("names /textures/9"));
   EXPECT_THAT(refusal_of("\"source\": 0", "\"source\": 9"), HasSubstr("names /images/9"));
@@ -187,6 +190,10 @@ TEST(Gltf, StripsAndFansAreTrianglesAndLinesAreLeftOut) {
 }
 
 TEST(Gltf, WhatItCannotShowIsCounted) {
+  EXPECT_EQ(count_of(scene_of_file("a.glb", small_glb("\"alphaMode\"",
+                                                      "\"extensions\": {\"KHR_materials_unlit\": {}}, \"alphaMode\"")),
+                     "unlit"),
+            1u);
   EXPECT_EQ(count_of(scene_of_file("a.glb", small_glb("MASK", "BLEND")), "blended alpha"), 1u);
   EXPECT_EQ(
       count_of(scene_of_file("a.glb", small_glb("\"scale\": [2, 2, 2]", "\"scale\": [2, 0, 2]")), "nodes make flat"),
@@ -199,6 +206,13 @@ TEST(Gltf, WhatItCannotShowIsCounted) {
   const Scene bare = scene_of_file("a.glb", small_glb(", \"TEXCOORD_0\": 3", ""));
   EXPECT_EQ(fault_of(bare), "");
   EXPECT_FALSE(bare.materials.at(0).normal_map);
+}
+
+TEST(Gltf, AHostileRootIsRefusedAtOnce) {
+  std::string junk;
+  for (int i = 0; i < 300; ++i) junk += "\"k" + std::to_string(i) + "\": 0, ";
+  EXPECT_THAT(refusal_of("\"asset\"", junk + "\"asset\""),
+              HasSubstr("the file has 314 members; expected a glTF 2.0 file"));
 }
 
 TEST(Gltf, ExtensionsThatItNeedsAndWeDoNotReadAreNamed) {
