@@ -14,7 +14,7 @@ struct SceneOptions {
   std::uint64_t seed = 0;
   int width = 0, height = 0;  // of the pictures; 0: the kind's own
   int lights = 64;            // corridor
-  double light_deg = 60;      // spheres: 0 behind the camera, 90 at its right, 180 opposite
+  double light_deg = 45;      // spheres: 0 behind the camera, 90 at its right, 180 opposite
   int frames = 1;             // spheres: scene files in which the light goes once around
 };
 

@@ -78,6 +78,7 @@ void make_cornell(const SceneOptions& options, SceneFiles& files) {
                    {"half_u", {0.065, 0, 0}},
                    {"half_v", {0, 0, 0.0525}},
                    {"strength", {17, 12, 4}}});
+  files.set_view({{"ev", 1}});
 }
 
 void make_corridor(const SceneOptions& options, SceneFiles& files) {

@@ -51,7 +51,7 @@ void make_spheres(const SceneOptions& options, SceneFiles& files) {
                     {"height", options.height},
                     {"position", {0, 0, 20}},
                     {"target", {0, 0, 0}},
-                    {"fov_deg", 12}});
+                    {"fov_deg", 11.5}});
   files.add_shape("sphere", {{"shape", "sphere"}});
   for (std::size_t r = 0; r < kRows.size(); ++r)
     for (int c = 0; c < kColumns; ++c) {
@@ -68,7 +68,7 @@ void make_spheres(const SceneOptions& options, SceneFiles& files) {
       files.add_material(name, {{"model", "callisto"}, {"parameters", parameters}});
       files.add_instance(
           "sphere", name,
-          {{"scale", 0.42}, {"translate", {c - (kColumns - 1) / 2, rounded(1.5 - static_cast<double>(r)), 0}}});
+          {{"scale", 0.3}, {"translate", {c - (kColumns - 1) / 2, rounded(1.35 - 0.9 * static_cast<double>(r)), 0}}});
     }
   for (int frame = 0; frame < options.frames; ++frame) {
     files.lights() = SceneJson::array();

@@ -67,12 +67,12 @@ void add_materials(SceneFiles& files) {
   callisto("near_mirror", {{"base_color", 0.9}, {"metallic", 1}, {"roughness", 0.01}});  // alpha = 1e-4
   callisto("white", {{"base_color", 1}, {"specular", 1}, {"roughness", 1}});
   callisto("black", {{"base_color", 0}, {"specular", 0}, {"roughness", 0}});
-  callisto("extreme", {{"base_color", {1, 0, 0.5}},
+  // As strong as it may be and still return no more light than it gets: 256 is allowed, but then light grows as it
+  // bounces, and no picture converges.
+  callisto("extreme", {{"base_color", {0.1, 0, 0.05}},
                        {"metallic", 0.5},
-                       {"diffuse_fresnel", 256},
-                       {"diffuse_fresnel_falloff", 1},
-                       {"retroreflection", 256},
-                       {"retroreflection_falloff", 1},
+                       {"diffuse_fresnel", 16},
+                       {"retroreflection", 16},
                        {"smooth_terminator", -1},
                        {"dual_specular_opacity", 1},
                        {"dual_specular_roughness_scale", 16}});

@@ -287,6 +287,15 @@ TEST(HdrFlip, TakesTheMedianOfAllWhereThatIsLit) {
   EXPECT_NEAR(map.stop_ev, std::log2(light_of_tone_085() / 2.5), 1e-12);
 }
 
+TEST(HdrFlip, TakesTheMedianOfTheLitPixelsWhereMostAreBlack) {
+  Picture p(40, 1);
+  for (const auto& [x, value] : {std::pair{3, 1.0f}, std::pair{20, 4.0f}, std::pair{30, 16.0f}})
+    for (float& v : p.at(x, 0)) v = value;
+  const HdrErrorMap map = hdr_flip(p, p);
+  EXPECT_NEAR(map.start_ev, std::log2(light_of_tone_085() / 16), 1e-6);  // float luminances
+  EXPECT_NEAR(map.stop_ev, std::log2(light_of_tone_085() / 4), 1e-6);
+}
+
 TEST(HdrFlip, CountsWhatIsNoNumberAndStaysFinite) {
   Picture reference = light(shapes(0)), render = light(shapes(2));
   reference.rgb[5] = std::numeric_limits<float>::quiet_NaN();
