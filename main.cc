@@ -17,6 +17,7 @@
 #include "fit/measured/command.h"
 #include "fit/slice/command.h"
 #include "render/command/command.h"
+#include "render/cost/command.h"
 #include "render/files/files.h"
 
 namespace {
@@ -32,6 +33,7 @@ constexpr auto kFooter = R"(Examples
   likeness slice callisto --out slice          a picture of how a model, or a measurement, reflects
   likeness cost evaluators --out out/cost      what accuracy costs in time, on this machine
   likeness render room.json                    a picture of a scene; Ctrl-C keeps what there is
+  likeness cost room.json --out out/room       what each setting of the run-time pipeline costs and gains on a scene
   likeness plan room.json                      which effects a scene calls for, and why
 
 Exit codes: 0 done, 1 a check said no, 2 usage, 3 a file cannot be used, 4 the program failed.
@@ -108,7 +110,7 @@ int main(int argc, char** argv) try {
   likeness::datasets_synthetic::add_make(program, exit_code);
   likeness::eval::add_eval(program, exit_code);
   likeness::fit::add_slice(program, exit_code);
-  likeness::cost::add_cost(program, exit_code);
+  likeness::scene_cost::add_scene(likeness::cost::add_cost(program, exit_code), exit_code);
   likeness::render_command::add_render(program, exit_code);
   likeness::render_command::add_plan(program, exit_code);
   program.footer(kFooter);  // last: a subcommand made after it would repeat it

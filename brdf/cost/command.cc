@@ -56,7 +56,7 @@ int run(const Request& request) {
 
 }  // namespace
 
-void add_cost(CLI::App& program, int& exit_code) {
+CLI::App& add_cost(CLI::App& program, int& exit_code) {
   CLI::App* cost = program.add_subcommand("cost", "Measure what accuracy costs in time, on this machine");
   cost->require_subcommand(1);
   auto request = std::make_shared<Request>();
@@ -87,6 +87,7 @@ void add_cost(CLI::App& program, int& exit_code) {
   evaluators->add_flag("--csv", request->csv, "Print CSV instead of tables");
   evaluators->add_option("--out", request->out, "Folder for evaluators.html and evaluators.csv");
   evaluators->callback([request, &exit_code] { exit_code = run(*request); });
+  return *cost;
 }
 
 }  // namespace likeness::cost

@@ -1,10 +1,10 @@
-#include "brdf/cost/pareto_axis.h"
+#include "render/page/pareto_axis.h"
 
 #include <algorithm>
 #include <cmath>
 #include <tuple>
 
-namespace likeness::cost {
+namespace likeness::page {
 
 bool Axis::in_strip(double value) const {
   if (!is_broken) return false;
@@ -57,4 +57,4 @@ Axis axis_over(std::vector<double> values, bool strip_is_low, double gap, double
   return axis;
 }
 
-}  // namespace likeness::cost
+}  // namespace likeness::page

@@ -5,7 +5,7 @@
 #include <vector>
 
 // The axes of a plot of error against time.
-namespace likeness::cost {
+namespace likeness::page {
 
 // A logarithmic axis for values above 0 that lie in a cluster, with a few far from it: those stand behind a break, in a
 // strip of its own scale.
@@ -28,4 +28,4 @@ struct Axis {
 Axis axis_over(std::vector<double> values, bool strip_is_low, double gap, double pad, double from, double to,
                double strip_size);
 
-}  // namespace likeness::cost
+}  // namespace likeness::page

@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include "brdf/cost/pareto_axis.h"
+#include "render/page/pareto_axis.h"
 
-namespace likeness::cost {
+namespace likeness::page {
 namespace {
 
 TEST(Axis, HoldsAClusterWithoutABreak) {
@@ -47,4 +47,4 @@ TEST(Axis, GivesASingleValueRoomAndTicks) {
 }
 
 }  // namespace
-}  // namespace likeness::cost
+}  // namespace likeness::page
