@@ -87,6 +87,14 @@ bool is_sound(const glm::mat4& m) {
   return is_near && lengths > 0 && std::abs(glm::determinant(turn)) > 1e-9 * lengths;
 }
 
+// Turned, moved and scaled alike along its axes, as far as a tracer of spheres minds: it allows 1e-5 of a float.
+bool keeps_spheres_round(const glm::dmat3& m) {
+  const double a = glm::dot(m[0], m[0]), off = 5e-6 * a;
+  return std::abs(a - glm::dot(m[1], m[1])) < off && std::abs(a - glm::dot(m[2], m[2])) < off &&
+         std::abs(glm::dot(m[0], m[1])) < off && std::abs(glm::dot(m[0], m[2])) < off &&
+         std::abs(glm::dot(m[1], m[2])) < off;
+}
+
 void add(Instance&& instance, Loading& loading) {
   if (is_sound(instance.world_from_object)) loading.scene().instances.push_back(std::move(instance));
   else
@@ -252,6 +260,9 @@ class Assembly {
                                     " has no texture coordinates, but material " +
                                     in_quotes(scene_.materials[out.material].name) + " has textures");
       out.world_from_object = glm::mat4(place * part.world_from_object);
+      if (mesh.is_sphere && !keeps_spheres_round(glm::dmat3(out.world_from_object)))
+        instance.refuse("mesh", " = " + in_quotes(instance.text("mesh")) +
+                                    " is a sphere that is stretched or sheared; use the shape \"faceted_sphere\"");
       if (scene_.instances.size() == kMostParts)
         instance.refuse(": with it more than " + std::to_string(kMostParts) + " parts stand in the scene");
       add(std::move(out), loading_);

@@ -49,7 +49,7 @@ constexpr std::array kCameraKeys{
 };
 constexpr std::array kMeshKeys{
     Key{.name = "file", .form = Form::kFile, .text = ".glb, .gltf, .obj or .ply; this or `shape`"},
-    Key{.name = "shape", .form = Form::kChoice, .choices = kShapes, .text = "made here, about the origin: the unit sphere itself, or of triangles, a plane and a disk that face +y"},
+    Key{.name = "shape", .form = Form::kChoice, .choices = kShapes, .text = "made here, about the origin: the unit sphere itself (not to be stretched), or of triangles; a plane and a disk face +y"},
     Key{.name = "size", .form = Form::kScale, .initial = "1", .range = {1e-6, 1e6}, .unit = "m", .text = "edges of a box; of a plane x and z count. Spheres and disks have radius 1: scale the instance"},
     Key{.name = "segments", .form = Form::kWhole, .initial = "64", .range = {3, 2048}, .text = "around a disk or a faceted sphere"},
     Key{.name = "flip_v", .form = Form::kFlag, .initial = "false", .text = "turn V upside down: for a file whose V runs against the habit of its format (glTF downwards; OBJ and PLY upwards, which is turned without this)"},

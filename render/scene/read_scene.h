@@ -15,7 +15,7 @@ namespace likeness::scene {
 //
 // Afterwards every index is inside its list; every number is finite; normals, tangents and directions are unit; areas,
 // radii and determinants are not zero; a mesh whose material has a normal map has tangents, and one whose material has
-// any texture has uvs (a sphere has its own).
+// any texture has uvs (a sphere has its own, and is turned, moved and scaled, but not stretched).
 //
 // Throws files::InputError, one line: "scene.json:12: /lights/2/radius = -1 is outside ...".
 Scene read_scene(const std::filesystem::path& file);

@@ -27,7 +27,7 @@ Shape shape(const std::string& members) {
   return std::get<Shape>(light(members).shape);
 }
 glm::mat4 placed(const std::string& members) {
-  return scene_of_members("\"meshes\": {\"b\": {\"shape\": \"sphere\"}}, \"instances\": [{\"mesh\": \"b\", " + members +
+  return scene_of_members("\"meshes\": {\"b\": {\"shape\": \"box\"}}, \"instances\": [{\"mesh\": \"b\", " + members +
                           "}]")
       .instances.at(0)
       .world_from_object;

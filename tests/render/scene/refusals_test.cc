@@ -123,6 +123,10 @@ TEST(SceneRefusals, NameTwoKeysThatExcludeEachOther) {
 
 TEST(SceneRefusals, NameGeometryThatCannotBe) {
   const std::string ball = "\"meshes\": {\"b\": {\"shape\": \"sphere\"}}, \"instances\": [{\"mesh\": \"b\", ";
+  EXPECT_THAT(refusal(ball + "\"scale\": [1, 2, 1]}]"),
+              HasSubstr("is a sphere that is stretched or sheared; use the shape"));
+  EXPECT_EQ(refusal(ball + "\"scale\": -2, \"rotate_deg\": [10, 20, 30]}]"), "");
+  EXPECT_THAT(refusal(ball + "\"matrix\": [[1, 0.5, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0]]}]"), HasSubstr("sheared"));
   EXPECT_THAT(refusal(ball + "\"scale\": [1, 0, 1]}]"), HasSubstr("/instances/0/scale makes the mesh flat (axis 1)"));
   EXPECT_THAT(refusal(ball + "\"matrix\": [[1, 1, 0, 0], [1, 1, 0, 0], [0, 0, 1, 0]]}]"),
               HasSubstr("makes the mesh flat (determinant 0)"));

@@ -63,6 +63,10 @@ inline std::string fault_of(const Scene& scene, const Instance& instance) {
   if (glm::determinant(glm::dmat3(instance.world_from_object)) == 0) return "a transform is flat";
   const Mesh& mesh = scene.meshes[instance.mesh];
   const Material& material = scene.materials[instance.material];
+  const glm::mat3 turn(instance.world_from_object);
+  const float a = glm::dot(turn[0], turn[0]), off = 1e-5f * a;
+  if (mesh.is_sphere && (std::abs(glm::dot(turn[1], turn[1]) - a) > off || std::abs(glm::dot(turn[0], turn[1])) > off))
+    return "a sphere is not round";
   if (mesh.is_sphere) return "";
   const bool has_map = material.normal_map || material.diffuse_normal_map;
   if (has_map && mesh.tangents.empty()) return "a normal map has no tangents";
