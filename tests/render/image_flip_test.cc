@@ -305,6 +305,11 @@ TEST(HdrFlip, CountsWhatIsNoNumberAndStaysFinite) {
   const HdrErrorMap map = hdr_flip(reference, render);
   EXPECT_EQ(map.not_finite, 3u);
   for (const float e : map.error) ASSERT_TRUE(e >= 0 && e <= 1) << e;
+  Picture black_there = reference;
+  black_there.rgb[5] = 0;
+  render.rgb[901] = render.rgb[902] = 0;
+  render.rgb[900] = std::numeric_limits<float>::max();
+  EXPECT_EQ(hdr_flip(black_there, render).error, map.error) << "NaN and negative light are black, not left out";
   reference.rgb[6] = std::numeric_limits<float>::infinity();
   for (const float e : hdr_flip(reference, render).error) ASSERT_TRUE(e >= 0 && e <= 1) << e;
 }

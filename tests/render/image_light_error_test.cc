@@ -83,6 +83,9 @@ TEST(ErrorInStops, TakesTheNearestRank) {
   EXPECT_NEAR(error.median, 10, 1e-6);
   EXPECT_NEAR(error.p95, 19, 1e-6);
   EXPECT_EQ(error.pixels, 20u);
+  const StopsError three = error_in_stops(picture(1, 1, {1, 1, 1}), picture(1, 1, {2, 16, 4}));  // 1, 4 and 2 stops
+  EXPECT_NEAR(three.median, 2, 1e-6);                                                            // the second of three
+  EXPECT_NEAR(three.p95, 4, 1e-6);
 }
 
 TEST(ErrorInStops, LiftsWhatIsDarkToTheFloor) {

@@ -150,7 +150,9 @@ TEST(AcesView, RisesAndTakesEveryFloat) {
   EXPECT_EQ(shown(kInfinity, aces), 255);
   Picture odd(3, 1);
   odd.rgb = {kNan, 0.18f, 0.18f, kInfinity, -kInfinity, 0, -5, 3, 1e38f};
-  EXPECT_EQ(show(odd, aces).rgb.size(), 9u);
+  Picture even = odd;
+  even.rgb = {0, 0.18f, 0.18f, 65504, -65504, 0, -5, 3, 65504};
+  EXPECT_EQ(show(odd, aces).rgb, show(even, aces).rgb) << "NaN is black, and leaves the other channels alone";
 }
 
 TEST(ConfigView, IsLookedUpByDisplayAndName) {
