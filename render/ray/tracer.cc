@@ -11,10 +11,12 @@
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 
+#include "render/ray/offset.h"
+
 namespace likeness::ray {
 namespace {
 
-constexpr unsigned kSurfaces = 1, kLights = 2;  // ray masks
+constexpr auto kSurfaces = static_cast<unsigned>(Seen::kSurfaces), kLights = static_cast<unsigned>(Seen::kLights);
 
 struct Device {
   RTCDevice handle = rtcNewDevice(nullptr);
@@ -200,7 +202,8 @@ struct Tracer::State {
   RTCGeometry disk(const scene::DiskLight& light) const {
     RTCGeometry geometry = rtcNewGeometry(device.handle, RTC_GEOMETRY_TYPE_ORIENTED_DISC_POINT);
     float* point = new_points(geometry, RTC_FORMAT_FLOAT4, 4, 1);
-    point[0] = light.center.x, point[1] = light.center.y, point[2] = light.center.z, point[3] = light.radius;
+    const glm::vec3 center = light.two_sided ? light.center : beside(light.center, light.normal);
+    point[0] = center.x, point[1] = center.y, point[2] = center.z, point[3] = light.radius;
     auto* normal = static_cast<float*>(
         rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_NORMAL, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), 1));
     normal[0] = light.normal.x, normal[1] = light.normal.y, normal[2] = light.normal.z;
@@ -220,11 +223,15 @@ struct Tracer::State {
     triangles += corners.size();
     return geometry;
   }
+  // A light of one side is put a little before where it is, so that it is met before a wall that it is flush with.
   RTCGeometry rectangle(const scene::RectangleLight& light) {
+    const glm::vec3 cross = glm::cross(light.half_u, light.half_v);
+    const float area = glm::length(cross);
+    const glm::vec3 normal = light.two_sided || !(area > 0) ? glm::vec3(0) : cross / area;
     RTCGeometry geometry = rtcNewGeometry(device.handle, RTC_GEOMETRY_TYPE_QUAD);
     float* at = new_points(geometry, RTC_FORMAT_FLOAT3, 3, 4);
     for (const auto& [u, v] : {std::pair{-1.f, -1.f}, {1.f, -1.f}, {1.f, 1.f}, {-1.f, 1.f}}) {
-      const glm::vec3 p = light.center + u * light.half_u + v * light.half_v;
+      const glm::vec3 p = beside(light.center + u * light.half_u + v * light.half_v, normal);
       *at++ = p.x, *at++ = p.y, *at++ = p.z;
     }
     auto* corner = static_cast<unsigned*>(
@@ -278,11 +285,11 @@ Tracer::Tracer(const scene::Scene& scene, const TracerOptions& options) : state_
 
 Tracer::~Tracer() = default;
 
-Hit Tracer::closest(const Ray& ray) const {
+Hit Tracer::closest(const Ray& ray, Seen seen) const {
   if (!is_sound(ray)) return {};
   RTCIntersectContext context = context_for(false);
   RTCRayHit query{};
-  query.ray = ray_of(ray, kSurfaces | kLights);
+  query.ray = ray_of(ray, static_cast<unsigned>(seen));
   query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
   rtcIntersect1(state_->scene, &context, &query);

@@ -48,6 +48,9 @@ struct TracerOptions {
   CutOuts cut_outs;
 };
 
+// What a ray may meet.
+enum class Seen : unsigned { kSurfaces = 1, kLights = 2, kAll = 3 };
+
 // A scene made ready for rays. Lights that have an area and are visible are met by closest(), never by occluded().
 // All members but the constructor may be called from many threads at once.
 //
@@ -62,7 +65,7 @@ class Tracer {
   ~Tracer();
 
   // A ray that is empty (far < near), that is no number somewhere or that is farther out than 1e18 meets nothing.
-  Hit closest(const Ray& ray) const;
+  Hit closest(const Ray& ray, Seen seen = Seen::kAll) const;
   bool occluded(const Ray& ray) const;
 
   // The same for rays that run close to each other, as those of neighboring pixels and those to one light do: two to
