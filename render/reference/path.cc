@@ -15,6 +15,10 @@ namespace {
 
 constexpr int kMostLightsPassed = 64;  // by one ray, before it meets a surface: lights do not hide what is behind them
 
+// The first bounces are always followed: ending them early saves less time than the noise costs (in the Cornell box the
+// error at equal time is a third smaller than with roulette from the first bounce on).
+constexpr int kFirstRoulette = 3;
+
 float largest(const glm::vec3& c) { return std::max({c.r, c.g, c.b}); }
 
 // The weight of what was found with density p and could have been found with density q.
@@ -62,19 +66,26 @@ glm::vec3 follow(const world::World& world, ray::Ray ray, sampling::Samples& sam
   for (int bounces = 0;; ++bounces) {
     ray::Hit hit = world.tracer.closest(ray);
     if constexpr ((kParts & kLights) != 0) {
-      for (int passed = 0; hit.is_some() && hit.surface >= instances && passed < kMostLightsPassed; ++passed) {
-        const std::size_t light = hit.surface - instances;
-        const glm::vec3 seen = world.lights.radiance(light, ray.direction, hit.distance, hit.normal);
-        if (largest(seen) > 0) {
-          const float other =
-              pdf > 0 ? world.lights.light_pdf(light, from, from_normal, ray.direction, hit.distance) : 0.0f;
-          sum.add(throughput * seen * (pdf > 0 ? weighted(pdf, other) : 1.0f), bounces);
+      if (hit.is_some() && hit.surface >= instances) {
+        // The surface behind is looked for from the start, so that a wall that a light is flush with is not slipped past.
+        const ray::Hit behind = world.tracer.closest(ray, ray::Seen::kSurfaces);
+        ray::Ray rest = ray;
+        rest.far = behind.distance;
+        for (int passed = 0; hit.is_some() && passed < kMostLightsPassed; ++passed) {
+          const std::size_t light = hit.surface - instances;
+          const glm::vec3 seen = world.lights.radiance(light, ray.direction, hit.distance, hit.normal);
+          if (largest(seen) > 0) {
+            const float other =
+                pdf > 0 ? world.lights.light_pdf(light, from, from_normal, ray.direction, hit.distance) : 0.0f;
+            sum.add(throughput * seen * (pdf > 0 ? weighted(pdf, other) : 1.0f), bounces);
+          }
+          rest.near = hit.distance * (1 + 1e-5f);
+          hit = world.tracer.closest(rest, ray::Seen::kLights);
         }
-        ray.near = hit.distance * (1 + 1e-5f);
-        hit = world.tracer.closest(ray);
+        hit = behind;
       }
     }
-    if (!hit.is_some() || hit.surface >= instances) {
+    if (!hit.is_some()) {
       if constexpr ((kParts & kEnvironment) != 0) {
         if (!world.lights.environment()) break;  // every effect is forced, and there is none
         float weight = 1;
@@ -108,7 +119,9 @@ glm::vec3 follow(const world::World& world, ray::Ray ray, sampling::Samples& sam
 
     const glm::vec3 position = ray::beside(point.position, point.normal);
     const glm::vec2 choice = samples.next();
-    if constexpr ((kParts & kLights) != 0) {
+    if constexpr ((kParts & kLights) == 0) {
+      samples.skip();  // the numbers after it are those of a plan with lights
+    } else {
       const glm::vec2 u = samples.next();
       const light::Sample light = world.lights.sample(point.position, point.shading_normal, choice.x, u);
       if (light.is_some()) {
@@ -131,7 +144,7 @@ glm::vec3 follow(const world::World& world, ray::Ray ray, sampling::Samples& sam
     throughput *= next.weight;
     if constexpr ((kParts & kLayers) != 0)
       if (bounces == 0) sum.diffuse_part = share_of_diffuse(point.lobes(next.to_light));
-    if (bounces > 0) {
+    if (bounces >= kFirstRoulette) {
       const float survival = std::min(largest(throughput), 1.0f);
       if (survival < 1 && !(samples.next_plain() < survival)) break;
       throughput /= survival;
