@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <string_view>
@@ -49,7 +50,35 @@ std::vector<std::string> channels_of(std::string_view letters) {
   return out;
 }
 
-constexpr std::string_view kFormat = "likeness film 1 ";
+constexpr std::size_t kLightFloats = 15;  // the last of them: light, by what it was
+
+constexpr std::string_view kFormat = "likeness film 2 ";
+
+// The bits of a double as three whole numbers that floats hold.
+constexpr std::array<std::string_view, 9> kPieces{"a", "b", "c", "d", "e", "f", "g", "h", "i"};
+constexpr unsigned kPieceBits = 22;
+std::array<float, 3> pieces_of(double x) {
+  const auto bits = std::bit_cast<std::uint64_t>(x);
+  constexpr std::uint64_t kMask = (1u << kPieceBits) - 1;
+  return {static_cast<float>(bits & kMask), static_cast<float>((bits >> kPieceBits) & kMask),
+          static_cast<float>(bits >> (2 * kPieceBits))};
+}
+// False: it is none that a film has.
+bool number_of(float piece, std::uint32_t limit, std::uint32_t& out) {
+  if (!(piece >= 0 && piece <= static_cast<float>(limit) && piece == std::floor(piece))) return false;
+  out = static_cast<std::uint32_t>(piece);
+  return true;
+}
+bool of_pieces(const std::array<float, 3>& pieces, double& x) {
+  std::uint64_t bits = 0;
+  for (unsigned k = 0; k < 3; ++k) {
+    std::uint32_t piece = 0;
+    if (!number_of(pieces[k], (1u << kPieceBits) - 1, piece)) return false;
+    bits |= static_cast<std::uint64_t>(piece) << (k * kPieceBits);
+  }
+  x = std::bit_cast<double>(bits);
+  return x >= 0 && std::isfinite(x);
+}
 
 }  // namespace
 
@@ -63,14 +92,15 @@ void Film::add(std::size_t pixel, const glm::vec3& radiance, const First* first)
   const std::uint32_t n = ++counts_[pixel];
   const bool is_sound = radiance.r >= 0 && radiance.g >= 0 && radiance.b >= 0 && std::isfinite(radiance.r) &&
                         std::isfinite(radiance.g) && std::isfinite(radiance.b);
-  if (!is_sound) return void(++rejected_[pixel]);
-  for (std::size_t k = 0; k < 3; ++k) {
+  if (!is_sound) ++rejected_[pixel];
+  for (std::size_t k = 0; is_sound && k < 3; ++k) {
     const double x = static_cast<double>(radiance[static_cast<int>(k)]);
     sums_[3 * pixel + k] += x;
     squares_[3 * pixel + k] += x * x;
   }
   if (layers_.empty() || first == nullptr) return;
-  const auto floats = floats_of(*first);
+  auto floats = floats_of(*first);
+  if (!is_sound) std::fill(floats.end() - kLightFloats, floats.end(), 0.0f);
   float* means = layers_.data() + kLayerFloats * pixel;
   for (std::size_t k = 0; k < kLayerFloats; ++k)
     if (std::isfinite(floats[k])) means[k] += (floats[k] - means[k]) / static_cast<float>(n);
@@ -112,9 +142,11 @@ image::Layers Film::layers() const {
   image::Layers out{width_, height_, {}, {}};
   out.layers.push_back({"", {"R", "G", "B"}, picture().rgb});
   image::Layer variance{"variance", {"R", "G", "B"}, std::vector<float>(sums_.size())};
+  constexpr double kMost = std::numeric_limits<float>::max();
   for (std::size_t i = 0; i < sums_.size(); ++i) {
     const double n = counts_[i / 3], m = n > 0 ? sums_[i] / n : 0;
-    variance.data[i] = n > 1 ? static_cast<float>(std::max(squares_[i] / n - m * m, 0.0) / (n - 1))
+    // That of samples near the largest float has none: the picture is finite, and so is this.
+    variance.data[i] = n > 1 ? static_cast<float>(std::min(std::max(squares_[i] / n - m * m, 0.0) / (n - 1), kMost))
                              : std::numeric_limits<float>::infinity();
   }
   out.layers.push_back(std::move(variance));
@@ -134,18 +166,14 @@ image::Layers Film::layers() const {
 
 image::Layers Film::state(const std::string& key) const {
   image::Layers out{width_, height_, {}, std::string(kFormat) + key};
-  // A double is kept as two floats: 48 bits of it, more than sums of floats have.
-  const auto pairs = [&](const char* name, const std::vector<double>& values) {
-    image::Layer layer{name, {"R", "G", "B", "r", "g", "b"}, {}};
-    for (std::size_t i = 0; i < values.size(); i += 3) {
-      for (std::size_t k = 0; k < 3; ++k) layer.data.push_back(static_cast<float>(values[i + k]));
-      for (std::size_t k = 0; k < 3; ++k)
-        layer.data.push_back(
-            static_cast<float>(values[i + k] - static_cast<double>(static_cast<float>(values[i + k]))));
-    }
+  const auto exactly = [&](const char* name, const std::vector<double>& values) {
+    image::Layer layer{name, {kPieces.begin(), kPieces.end()}, {}};
+    layer.data.reserve(3 * values.size());
+    for (const double x : values)
+      for (const float piece : pieces_of(x)) layer.data.push_back(piece);
     out.layers.push_back(std::move(layer));
   };
-  pairs("sum", sums_), pairs("square", squares_);
+  exactly("sum", sums_), exactly("square", squares_);
   image::Layer counts{"count", {"N", "R"}, {}};
   for (std::size_t i = 0; i < counts_.size(); ++i) {
     counts.data.push_back(static_cast<float>(counts_[i]));
@@ -177,25 +205,31 @@ Film Film::of_state(const image::Layers& state, const std::string& key, const st
   const auto place = [](const image::Layer& l, std::string_view channel) {
     return static_cast<std::size_t>(std::find(l.channels.begin(), l.channels.end(), channel) - l.channels.begin());
   };
+  const auto damaged = [&](const char* which) {
+    return files::InputError(name + ": the layer \"" + which + "\" is damaged (delete it to start anew)");
+  };
   const auto read = [&](const char* which, std::vector<double>& values) {
-    const image::Layer& l = layer(which, 6);
-    constexpr std::array<std::string_view, 6> kNames{"R", "G", "B", "r", "g", "b"};
-    std::array<std::size_t, 6> at{};
-    for (std::size_t k = 0; k < 6; ++k) {
-      at[k] = place(l, kNames[k]);
-      if (at[k] >= 6) throw files::InputError(name + ": the layer \"" + which + "\" has other channels");
+    const image::Layer& l = layer(which, kPieces.size());
+    std::array<std::size_t, kPieces.size()> at{};
+    for (std::size_t k = 0; k < at.size(); ++k) {
+      at[k] = place(l, kPieces[k]);
+      if (at[k] >= at.size()) throw files::InputError(name + ": the layer \"" + which + "\" has other channels");
     }
     for (std::size_t p = 0; p < film.counts_.size(); ++p)
-      for (std::size_t k = 0; k < 3; ++k)
-        values[3 * p + k] = static_cast<double>(l.data[6 * p + at[k]]) + static_cast<double>(l.data[6 * p + at[k + 3]]);
+      for (std::size_t k = 0; k < 3; ++k) {
+        const float* pixel = l.data.data() + kPieces.size() * p;
+        if (!of_pieces({pixel[at[3 * k]], pixel[at[3 * k + 1]], pixel[at[3 * k + 2]]}, values[3 * p + k]))
+          throw damaged(which);
+      }
   };
   read("sum", film.sums_), read("square", film.squares_);
   const image::Layer& counts = layer("count", 2);
   const std::size_t n = place(counts, "N"), r = place(counts, "R");
   if (n > 1 || r > 1) throw files::InputError(name + ": the layer \"count\" has other channels");
   for (std::size_t p = 0; p < film.counts_.size(); ++p) {
-    film.counts_[p] = static_cast<std::uint32_t>(counts.data[2 * p + n]);
-    film.rejected_[p] = static_cast<std::uint32_t>(counts.data[2 * p + r]);
+    if (!number_of(counts.data[2 * p + n], 1u << 24, film.counts_[p]) ||
+        !number_of(counts.data[2 * p + r], 1u << 24, film.rejected_[p]))
+      throw damaged("count");
   }
   if (means != nullptr) film.layers_ = layer("means", kLayerFloats).data;
   return film;

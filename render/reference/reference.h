@@ -32,13 +32,15 @@ struct Progress {
 };
 
 // Adds samples to `film`, which is new or of the same scene and options, pass by pass, until a target is reached or
-// `goes_on` says no. It is asked between tiles too: a film that was stopped within a pass has pixels with one pass more
-// than others, and is as good. The picture does not depend on the number of threads, nor on stops.
+// `goes_on` says no. It is asked between tiles too, by many threads at once and with share = -1: a film that was stopped
+// within a pass has pixels with one pass more than others, and is as good. The picture does not depend on the number of
+// threads, nor on stops.
 void render(const world::World& world, const Options& options, Film& film,
             const std::function<bool(const Progress&)>& goes_on);
 
 // For each light its visibility (the part of it that is not hidden, [0, 1]) and its lighting function (what it would
-// send to the camera if nothing hid it), at the first surface: layers "visibility.NAME" and "light.NAME".
+// send to the camera if nothing hid it), at the first surface: layers "visibility.NAME" and "light.NAME". A light without
+// a name has its number, and one of two with the same name both.
 void add_light_layers(const world::World& world, const Options& options, image::Layers& layers);
 
 }  // namespace likeness::reference
