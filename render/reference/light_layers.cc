@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <string>
+#include <vector>
 
 #include <glm/common.hpp>
 #include <tbb/parallel_for.h>
@@ -16,8 +18,11 @@ void add_light_layers(const world::World& world, const Options& options, image::
   const auto width = static_cast<std::size_t>(camera.width()), height = static_cast<std::size_t>(camera.height());
   const std::size_t lights = world.scene.lights.size();
   std::vector<image::Layer> visibility, function;
+  std::vector<std::string> names;
   for (std::size_t i = 0; i < lights; ++i) {
-    const std::string name = world.scene.lights[i].name.empty() ? std::to_string(i) : world.scene.lights[i].name;
+    std::string name = world.scene.lights[i].name.empty() ? std::to_string(i) : world.scene.lights[i].name;
+    while (std::find(names.begin(), names.end(), name) != names.end()) name += "_" + std::to_string(i);
+    names.push_back(name);
     visibility.push_back({"visibility." + name, {"V"}, std::vector<float>(width * height), image::Storage::kHalf});
     function.push_back({"light." + name, {"R", "G", "B"}, std::vector<float>(3 * width * height)});
   }
@@ -30,8 +35,8 @@ void add_light_layers(const world::World& world, const Options& options, image::
         sampling::Samples samples(static_cast<std::uint32_t>(pixel), s, options.seed);
         const glm::vec2 at = glm::vec2(x, y) + samples.next();
         const ray::Ray ray = camera.ray(at, camera.has_lens() ? samples.next() : glm::vec2(0.5f));
-        const ray::Hit hit = world.tracer.closest(ray);
-        if (!hit.is_some() || hit.surface >= world.scene.instances.size()) continue;
+        const ray::Hit hit = world.tracer.closest(ray, ray::Seen::kSurfaces);  // lights hide nothing
+        if (!hit.is_some()) continue;
         world.surfaces.at<surface::Detail::kTextures>(ray, hit, point);
         if (point.is_black()) continue;
         for (std::size_t i = 0; i < lights; ++i) {
