@@ -19,6 +19,7 @@
 #include "render/command/command.h"
 #include "render/cost/command.h"
 #include "render/files/files.h"
+#include "render/mip/command.h"
 
 namespace {
 
@@ -113,6 +114,7 @@ int main(int argc, char** argv) try {
   likeness::scene_cost::add_scene(likeness::cost::add_cost(program, exit_code), exit_code);
   likeness::render_command::add_render(program, exit_code);
   likeness::render_command::add_plan(program, exit_code);
+  likeness::mip::add_mip(program, exit_code);
   program.footer(kFooter);  // last: a subcommand made after it would repeat it
 
   try {

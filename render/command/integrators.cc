@@ -7,6 +7,8 @@ namespace likeness::render_command {
 std::span<const Integrator> integrators() {
   static constexpr std::array kRows{
       Integrator{"reference", "path tracer, exact but for noise", true, render_reference},
+      Integrator{"runtime", "as a game would: one bounce of light, in milliseconds (docs/renderer.md)", false,
+                 render_runtime},
   };
   return kRows;
 }

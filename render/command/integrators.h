@@ -11,6 +11,7 @@
 #include "render/image/layers.h"
 #include "render/image/picture.h"
 #include "render/reference/reference.h"
+#include "render/runtime/settings.h"
 #include "render/world/world.h"
 
 // The ways to make a picture of a scene: what `likeness render --integrator` names. A new one is a function and a row in
@@ -21,6 +22,7 @@ struct Job {
   const world::World& world;
   reference::Options options;  // camera, targets, seed; what an integrator has no use for it leaves unread
   bool has_light_layers = false;
+  runtime::Settings settings{};  // of the run-time pipeline
   // Empty: from the start. Otherwise the state that an interrupted render left, and what it must be a state of.
   std::filesystem::path state{};
   std::string key{};
@@ -45,5 +47,6 @@ struct Integrator {
 std::span<const Integrator> integrators();
 
 Rendered render_reference(const Job& job);
+Rendered render_runtime(const Job& job);
 
 }  // namespace likeness::render_command
