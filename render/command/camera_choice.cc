@@ -73,8 +73,8 @@ void resize(scene::Camera& camera, const Size& size) {
 
 std::size_t picture_bytes(const scene::Camera& camera, bool has_layers, std::size_t light_layers) {
   const std::size_t pixels = static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height);
-  // The film (56, with layers 176), what is written of it (24, 144; of its state 56, 176) and the file in memory.
-  const std::size_t film = has_layers ? 176 : 56, written = has_layers ? 176 : 56;
+  // The film (64, with layers 184), what is written of it (24 and 144; of its state 80 and 200) and the file in memory.
+  const std::size_t film = has_layers ? 184 : 64, written = has_layers ? 200 : 80;
   return pixels * (film + 2 * written + 2 * 16 * light_layers + 32);
 }
 

@@ -60,7 +60,7 @@ class Teller {
   double first_share_, share_, told_at_ = 0;
 };
 
-// Lights may have the same name, or a very long one; layers may not.
+// Lights may have very long names, and then the same; layers may not.
 void make_names_unique(image::Layers& layers) {
   constexpr std::size_t kLongest = 180;
   std::set<std::string> seen;

@@ -33,7 +33,7 @@ double seconds_since(Clock::time_point start) { return std::chrono::duration<dou
 
 void tell_repairs(const scene::Scene& scene) {
   for (const scene::Repair& repair : scene.repairs)
-    std::cerr << "put right: " << repair.where << ": " << repair.count << " " << repair.what << "\n";
+    std::cerr << "put right: " << repair.where << ": " << repair.what << " (" << repair.count << ")\n";
 }
 
 // Before any work: whatever cannot be written afterwards. Leaves nothing but the folder.

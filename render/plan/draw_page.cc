@@ -121,7 +121,8 @@ std::string drawing_of(const Plan& plan, const std::string& scene, const Costs* 
   out += svg_text(kText, 20.5, "start", "what it is", kQuietSize, style(kQuiet));
   out += svg_text(kFact, 20.5, "start", "what in the scene decided it", kQuietSize, style(kQuiet));
   if (costs != nullptr)
-    out += svg_text(kWidth - 2, 20.5, "end", "adds, of " + page::fixed(with, 0) + " ms", kQuietSize, style(kQuiet));
+    out += svg_text(kWidth - 2, 20.5, "end", "of " + page::fixed(with, 0) + " ms in all, it adds", kQuietSize,
+                    style(kQuiet));
   for (const Stage& stage : kStages) out += rows_of(stage, plan, costs, scale, y);
   return page::drawing("0 0 " + page::plain(kWidth) + " " + page::fixed(y, 0), "The plan of " + scene, out);
 }
@@ -154,11 +155,11 @@ std::string page_of(const Plan& plan, const std::string& scene, const Costs* cos
   const std::string title = "What " + scene + " calls for";
   std::string out = page::page_head(title) + element("h1", title);
   out += "<p class=\"verdict\">" + std::to_string(on) + " of the " + std::to_string(kEffectCount) +
-         " effects that the renderer knows are worked on; the others cost nothing.</p>\n";
+         " effects that the renderer knows are worked on; the others are left out.</p>\n";
   out +=
       "<p>Before it renders, Likeness looks through the scene once and decides for every effect whether anything "
       "asks for it. A filled circle means that something does, and the line says what. A hollow one means that "
-      "nothing does: its code is then not in the loops that run. Change the scene, and the plan changes with it.</p>\n";
+      "nothing does: its work is then not done. Change the scene, and the plan changes with it.</p>\n";
   if (plan.is_forced)
     out +=
         "<p class=\"note\">Here every effect is forced to be on (<code>--force all</code>). The picture is the "
