@@ -20,7 +20,7 @@ struct Access {
 
 inline constexpr std::size_t kMostMeshFileBytes = std::size_t{4} << 30;
 inline constexpr std::size_t kMostTexelBytes = std::size_t{16} << 30;  // of all pictures of a scene
-inline constexpr std::size_t kMostMeshBytes = std::size_t{8} << 30;   // of all meshes of a file
+inline constexpr std::size_t kMostMeshBytes = std::size_t{8} << 30;    // of all meshes of a file
 inline constexpr std::size_t kMostParts = 1'000'000;                   // meshes of a file in their places
 inline constexpr std::size_t kMostPixels = std::size_t{1} << 28;       // of a camera
 inline constexpr float kFarthest = 1e9f;  // [m]: of a coordinate, so that its square's square is still a float

@@ -42,7 +42,8 @@ TEST(Json, AMemberThatIsGivenTwiceIsNamedByItsPath) {
 
 TEST(Json, WhatIsNotJsonIsSaidInOneLine) {
   EXPECT_THAT(refusal("{\n\"a\": oops}"), testing::StartsWith("a.json:2: not JSON (byte 8): syntax error"));
-  for (const std::string text : {"", "[1,]", "{\"a\" 1}", "[NaN]", "[1e999]", "\"\xff\"", "[1] 2", "[\"\n\"]", "// no\n1"})
+  for (const std::string text :
+       {"", "[1,]", "{\"a\" 1}", "[NaN]", "[1e999]", "\"\xff\"", "[1] 2", "[\"\n\"]", "// no\n1"})
     EXPECT_THAT(refusal(text), HasSubstr("not JSON (byte ")) << text;
 }
 
