@@ -235,6 +235,24 @@ TEST(SceneShapes, TheEyeHasTheVolumeOfItsSpheres) {
   EXPECT_NEAR(volume * 1e9 / expected, 1, 0.003);  // facets, and the rounded limbus: 0.0012 measured
 }
 
+TEST(SceneFiles, KeepTextureCoordinatesAndLeaveOutIdleVertices) {
+  const TemporaryFolder folder;
+  scene::Mesh mesh;
+  mesh.positions = {{0, 0, 0}, {9, 9, 9}, {1, 0, 0}, {0, 1, 0}};
+  mesh.uvs = {{0.1f, 0.9f}, {0.5f, 0.5f}, {1, 0.75f}, {0, 0.25f}};
+  mesh.triangles = {{0, 2, 3}};
+  SceneFiles files(folder.path(), "test");
+  files.add_mesh("one", mesh);
+  files.add_material("plain", SceneJson::object());
+  files.add_instance("one", "plain");
+  files.write();
+  const scene::Scene back = scene::read_scene(folder / "scene.json");
+  ASSERT_EQ(back.meshes.at(0).uvs.size(), 3u);
+  EXPECT_NEAR(back.meshes[0].uvs[0].y, 0.9, 1e-6);  // 1 - v, twice, in float
+  EXPECT_NEAR(back.meshes[0].uvs[1].y, 0.75, 1e-6);
+  EXPECT_EQ(back.meshes[0].positions[1].x, 1);
+}
+
 TEST(SceneNoise, IsSmoothRepeatsAndHasNoMean) {
   double sum = 0;
   for (int i = 0; i < 10'000; ++i) {
@@ -287,6 +305,7 @@ TEST_F(MakeSceneCommand, PrintsTheSceneFileThatItWrote) {
   EXPECT_EQ(scene.cameras[0].width, 32);
   EXPECT_EQ(scene.cameras[0].height, 16);
   EXPECT_NO_THROW(run("cornell --out FOLDER/a")) << "it replaces its own";
+  EXPECT_NO_THROW(run("cornell --width 1 --height 16384 --out FOLDER/a")) << "the ends of the range";
 }
 
 TEST_F(MakeSceneCommand, ListsAndExplainsEveryKind) {
