@@ -273,6 +273,47 @@ glm::vec3 Lights::radiance(std::size_t index, const glm::vec3& direction, float 
       light.shape);
 }
 
+Sample Lights::meet(std::size_t index, const glm::vec3& point, const glm::vec3& direction) const {
+  if (index >= scene_->lights.size() || !scene_->lights[index].is_visible) return {};
+  const scene::Light& light = scene_->lights[index];
+  // Where the direction meets the plane of a flat light, from its shining side; 0: nowhere.
+  const auto on_plane = [&](const glm::vec3& center, const glm::vec3& normal, bool is_two_sided) {
+    const float facing = glm::dot(direction, normal);
+    if (facing == 0 || (!is_two_sided && facing > 0)) return 0.0f;
+    return std::max(glm::dot(center - point, normal) / facing, 0.0f);
+  };
+  float distance = 0, pdf = 0;
+  glm::vec3 radiance(0);
+  std::visit(Cases{
+                 [&](const scene::RectangleLight& l) {
+                   const float t = on_plane(l.center, glm::cross(l.half_u, l.half_v), l.two_sided);
+                   const glm::vec3 across = point + t * direction - l.center;
+                   const bool is_inside = std::abs(glm::dot(across, l.half_u)) <= glm::dot(l.half_u, l.half_u) &&
+                                          std::abs(glm::dot(across, l.half_v)) <= glm::dot(l.half_v, l.half_v);
+                   if (t > 0 && is_inside)
+                     distance = t, radiance = l.radiance, pdf = rectangle_pdf(l, point, direction, t);
+                 },
+                 [&](const scene::DiskLight& l) {
+                   const float t = on_plane(l.center, l.normal, l.two_sided);
+                   const glm::vec3 across = point + t * direction - l.center;
+                   if (t > 0 && glm::dot(across, across) <= l.radius * l.radius)
+                     distance = t, radiance = l.radiance, pdf = disk_pdf(l, point, direction, t);
+                 },
+                 [&](const scene::SphereLight& l) {
+                   const glm::vec3 way = l.center - point;
+                   const float along = glm::dot(way, direction);
+                   const glm::vec3 beside = way - along * direction;
+                   const float half2 = l.radius * l.radius - glm::dot(beside, beside);
+                   if (along > 0 && half2 > 0 && glm::dot(way, way) > l.radius * l.radius)
+                     distance = along - std::sqrt(half2), radiance = l.radiance, pdf = sphere_pdf(l, point);
+                 },
+                 [](const auto&) {},
+             },
+             light.shape);
+  if (!(distance > 0) || !(pdf > 0)) return {};
+  return {direction, distance, radiance * attenuation(light, distance), pdf, index};
+}
+
 float Lights::light_pdf(std::size_t index, const glm::vec3& point, const glm::vec3& normal, const glm::vec3& direction,
                         float distance) const {
   const float p = probability(index, point, normal);

@@ -63,6 +63,11 @@ class Lights {
   // A direction to light `index`, as if it were the only one.
   Sample sample_light(std::size_t index, const glm::vec3& point, const glm::vec2& u) const;
 
+  // What a direction (unit) from a point meets of light `index`, as if it were the only one and nothing hid it: its
+  // radiance, its distance, and the density with which sample_light() gives that direction. Nothing (value 0) of lights
+  // without an area, those that are not visible, and surfaces that shine.
+  Sample meet(std::size_t index, const glm::vec3& point, const glm::vec3& direction) const;
+
   // What a ray that met a light of the scene, with its geometric normal there, sees: 0 from the back of a one-sided one,
   // and from within a sphere.
   glm::vec3 radiance(std::size_t light, const glm::vec3& direction, float distance, const glm::vec3& normal) const;

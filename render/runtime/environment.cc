@@ -54,9 +54,11 @@ glm::vec3 by_maps(const Context& c, const surface::Point& point) {
   const glm::vec3 to_view = point.frame.world(point.to_view);
   const float cos_o = std::clamp(glm::dot(normal, to_view), 0.0f, 1.0f);
   const glm::vec3 mirror = 2 * glm::dot(normal, to_view) * normal - to_view;
+  // A mapped normal may mirror the view into the surface itself, from where no light comes.
+  const float above = std::clamp(1 + glm::dot(mirror, point.normal), 0.0f, 1.0f);
   const auto lobe = [&](float roughness) {
     const glm::vec2 r = EnvironmentMaps::reflectance(cos_o, roughness);
-    return (f0 * r.x + r.y) * c.maps.radiance(mirror, roughness);
+    return (f0 * r.x + r.y) * (above * above) * c.maps.radiance(mirror, roughness);
   };
   glm::vec3 specular = lobe(m.roughness);
   if (m.dual_specular_opacity > 0)
