@@ -83,7 +83,8 @@ std::string usage_message(const CLI::App& program, const CLI::ParseError& error)
     const std::string kind = is_option ? "option" : is_subcommand ? "subcommand" : "argument";
     return place.words + ": unknown " + kind + " " + word + did_you_mean(*place.app, word) + way_out;
   }
-  if (const auto subs = subcommands_of(*place.app); !subs.empty() && place.app->get_subcommands().empty()) {
+  if (const auto subs = subcommands_of(*place.app);
+      place.app->get_require_subcommand_min() > 0 && !subs.empty() && place.app->get_subcommands().empty()) {
     std::string names;
     for (const CLI::App* sub : subs) names += (names.empty() ? "" : ", ") + sub->get_name();
     return place.words + ": a subcommand is needed: " + names + way_out;

@@ -13,13 +13,13 @@ Row::Timing Row::timing(bool of_cpu) const {
 }
 
 std::string name_of(const Study& study, const Row& row) {
-  if (row.is_path_tracer) return "path tracer, " + std::to_string(row.samples);
+  if (row.is_path_tracer) return "path tracer, " + std::to_string(row.samples) + " spp";
   std::string out;
   for (std::size_t i = 0; i < kSettingCount; ++i) {
     if (!study.matters[i]) continue;
     const std::string level(runtime::kSettings[i].levels[row.levels[i]]);
-    const char* unit = i == kPixelSamples ? " px" : i == kLightSamples ? " light" : "";
-    out += (out.empty() ? "" : ", ") + level + unit;
+    out += out.empty() ? "" : ", ";
+    out += i == kPixelSamples ? level + " pts" : i == kLightSamples ? level + " shadow" : "env " + level;
   }
   return out;
 }

@@ -35,7 +35,12 @@ struct Pages {
     p.time_axis = unit + " a frame";
     p.error_axis = is_flip ? "FLIP: seen difference, down is better" : "relMSE, down is better";
     p.least_time = 1e-3, p.least_error = kLeastError, p.time_text = time_text;
-    if (study.reference.noise) p.noise = value_of(*study.reference.noise, metric);
+    double least = HUGE_VAL;
+    for (const Row* row : rows) least = std::min(least, value_of(row->errors, metric));
+    // Noise far below all that is drawn would only squeeze it.
+    constexpr double kFarBelow = 0.2;
+    if (study.reference.noise && value_of(*study.reference.noise, metric) > kFarBelow * least)
+      p.noise = value_of(*study.reference.noise, metric);
     if (study.direct_only) p.levels.push_back({value_of(*study.direct_only, metric), "direct light alone, exact"});
     for (const Row* row : rows) {
       const double error = value_of(row->errors, metric);
@@ -149,8 +154,9 @@ std::string facts_of(const Study& study) {
              "scene's exposure. Stops: |log2(picture / reference)| where there is a surface; half of the "
              "values, and 95 % of them, are below. All of one frame: its noise has a fixed seed.");
   out += row("Settings",
-             "pixel_samples: points in each pixel (px). light_samples: shadow rays to each light with an area, "
-             "for each point (light). environment: maps without shadows, or rays for each point.");
+             "pixel_samples: points in each pixel (pts). light_samples: shadow rays to each light with an area, "
+             "for each point (shadow). environment: maps without shadows, or rays for each point (env). spp: samples a "
+             "pixel.");
   return out + "</dl>\n";
 }
 
@@ -167,7 +173,9 @@ std::string setting_section(const Pages& pages, std::size_t setting) {
   const auto name = [&](const Row& r) { return std::string(row.levels[r.levels[setting]]); };
   std::string out = "<h2 id=\"" + std::string(row.name) + "\">" + std::string(row.name) + "</h2>\n" +
                     element("p", "One at a time: " + std::string(row.text) + "." +
-                                     (rest.empty() ? "" : " The rest at its best: " + rest + ".")) +
+                                     (rest.empty() ? ""
+                                                   : " The rest as high as " + time_text(study.options.longest_ms) +
+                                                         " of CPU a frame allow: " + rest + ".")) +
                     pages.plots(std::string(row.name), rows, name, true) + "<div class=\"cards\">\n";
   for (const Row* r : rows) out += pages.card(std::string(row.name) + " " + name(*r), *r);
   return out + "</div>\n";
@@ -180,8 +188,10 @@ std::string unrepaired_section(const Pages& pages) {
       "<h2 id=\"left\">What no level repairs</h2>\n"
       "<p>The pipeline lights surfaces directly: light that went by way of another surface first is missing. What it "
       "is "
-      "worth is the difference between two pictures of the path tracer, with one bounce and with all. What the best "
-      "frame is off by beyond that is its own: samples that are still too few, and approximations (maps).</p>\n"
+      "worth is the difference between two pictures of the path tracer, with one bounce and with all. The "
+      "rest of the most exact frame's error is its own: samples that are still too few, and approximations (maps), "
+      "which "
+      "may add to the first or make up for it.</p>\n"
       "<div class=\"scroll\"><table class=\"metrics\"><thead><tr><th>against the full reference</th><th>FLIP</th>"
       "<th>relMSE</th><th>stops, median</th><th>stops, 95 %</th></tr></thead><tbody>\n";
   const auto line = [&](const std::string& name, const Errors& e) {
@@ -195,6 +205,10 @@ std::string unrepaired_section(const Pages& pages) {
   if (study.direct_only) line("Direct light alone, by the path tracer", *study.direct_only);
   if (study.reference.noise) line("Noise of the reference", *study.reference.noise);
   out += "</tbody></table></div>\n";
+  if (study.direct_only && study.options.max_bounces > 1)
+    out +=
+        "<p>Where this is most of the error, every level looks alike. With <code>--bounces 1</code> the reference has "
+        "direct light alone, and shows what the settings change.</p>\n";
   if (!study.direct_map_png.empty())
     out += "<div class=\"cards\">" +
            Pages::card("Direct light alone", study.direct_png, study.direct_map_png,
@@ -276,14 +290,15 @@ std::string table_section(const Pages& pages) {
 constexpr std::string_view kStyle =
     ".plots{grid-template-columns:repeat(auto-fit,minmax(min(100%,520px),1fr))}.plots figure{max-width:760px}"
     ".cards{grid-template-columns:repeat(auto-fill,minmax(min(100%,350px),1fr));margin-top:14px}"
-    ".pair div{display:grid;grid-template-columns:1fr 1fr;gap:3px}.pair img{display:block;width:100%;height:auto}"
+    ".cards .pair b{color:inherit;text-decoration:none}.pair div{display:grid;grid-template-columns:1fr "
+    "1fr;gap:3px}.pair img{display:block;width:100%;height:auto}"
     ".first{display:grid;grid-template-columns:minmax(0,400px) minmax(0,1fr);gap:24px;align-items:start}"
-    ".first img{display:block;width:100%;height:auto}.first dl{margin:0}"
+    ".first img{display:block;width:100%;max-width:400px;height:auto}.first dl{margin:0}"
     ".metrics thead th{min-width:5rem}.metrics td,.metrics th{padding:5px 8px}"
     ".ramp{display:inline-block;width:9em;height:.8em;vertical-align:-.1em;background:linear-gradient(90deg,#000004,#"
     "641a80,"
     "#ca3e72,#fd9969,#fcfdbf);-webkit-print-color-adjust:exact;print-color-adjust:exact}"
-    "@media (max-width:760px){.first{grid-template-columns:minmax(0,1fr)}}\n";
+    "@media (max-width:1000px){.first{grid-template-columns:minmax(0,1fr)}}\n";
 
 }  // namespace
 
@@ -311,9 +326,13 @@ std::string page_of(const Study& study) {
   out +=
       "<h2 id=\"whole\">Whole frame</h2>\n<p>Every combination that was measured. Blue discs are worth their time: no "
       "other combination is both faster and more exact; hollow ones are not. Orange: the path tracer, which follows "
-      "all "
-      "bounces. The green line is what an exact picture of direct light alone would reach: the pipeline cannot be much "
-      "below it.</p>\n";
+      "all bounces.";
+  if (study.direct_only)
+    out +=
+        " The green line is an exact picture of direct light alone, which is all that the pipeline renders. A frame "
+        "below it owes that to an error that happens to make up for the missing bounces: maps of the environment "
+        "without shadows are brighter just where later bounces are missing.";
+  out += "</p>\n";
   std::vector<const Row*> all;
   for (const Row& row : study.rows) all.push_back(&row);
   out += pages.plots("Whole frame", all, [&](const Row& row) { return name_of(study, row); }, false);

@@ -86,7 +86,7 @@ struct Study {
   bool is_complete = false;
 };
 
-// "4 px, 16 light, maps": the settings that matter.
+// "4 pts, 16 shadow, env maps": the settings that matter. "path tracer, 4 spp".
 std::string name_of(const Study& study, const Row& row);
 
 // `goes_on` is told the phase and the share of it that is done, and asked whether to go on; when it says no, what was

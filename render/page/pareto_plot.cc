@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "render/page/html.h"
 #include "render/page/pareto_axis.h"
@@ -46,7 +47,7 @@ double width_of(const std::string& text, bool bold) {
 // Where each label lies: beside its point, or, where others are in the way, farther off with a line to it.
 class Labels {
  public:
-  explicit Labels(const std::vector<Point>& points) {
+  Labels(const std::vector<Point>& points, std::vector<Box> taken) : taken_(std::move(taken)) {
     for (const Point& p : points)
       taken_.push_back({p.x - kDisc - 1, p.y - kDisc - 1, p.x + kDisc + 1, p.y + kDisc + 1});
   }
@@ -208,13 +209,15 @@ std::string drawing_of(const ParetoPlot& plot) {
     point.label = point.source->name + (numbers.empty() ? "" : " (" + numbers + ")");
   }
   std::string content = frame(plot, x, y) + noise_of(plot, y);
+  std::vector<Box> taken;
   for (const ParetoLevel& level : plot.levels) {
     const double at = y.at(std::max(level.error, plot.least_error));
     content += svg_line(kLeft, at, kRight, at, "stroke=\"#2d7d46\" stroke-dasharray=\"7 4\"") +
-               svg_text(kRight - 6, at - 4, "end", escape(level.name), 11, " style=\"fill:#1d5a31\"");
+               svg_text(kLeft + 6, at + 12, "start", escape(level.name), 11, " style=\"fill:#1d5a31\"");
+    taken.push_back({kLeft, at, kLeft + 12 + width_of(level.name, false), at + 15});
   }
   content += front_of(points) + line_of_diamonds(points);
-  Labels labels(points);
+  Labels labels(points, std::move(taken));
   std::string marks, names;
   // The front's names take the nearest places.
   for (const bool in_front : {true, false})
