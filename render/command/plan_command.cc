@@ -25,6 +25,12 @@ struct PlanRequest {
   double repeats = 9;
 };
 
+// Of a scene, for a heading: most are called scene.json, and their folder says which it is.
+std::string name_of(const std::filesystem::path& scene) {
+  const std::filesystem::path folder = scene.parent_path().filename();
+  return (scene.filename() == "scene.json" && !folder.empty() ? folder / scene.filename() : scene.filename()).string();
+}
+
 int run(const PlanRequest& request) {
   const bool force = is_forced(request.force);
   const std::filesystem::path out = request.out;
@@ -54,7 +60,7 @@ int run(const PlanRequest& request) {
     }
   }
   const plan::Costs* measured = costs ? &*costs : nullptr;
-  const std::string name = std::filesystem::path(request.scene).filename().string();
+  const std::string name = name_of(request.scene);
   if (!request.out.empty())
     files::write_whole(
         out, out.extension() == ".svg" ? plan::svg_of(plan, name, measured) : plan::page_of(plan, name, measured));

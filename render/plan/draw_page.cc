@@ -168,9 +168,9 @@ std::string page_of(const Plan& plan, const std::string& scene, const Costs* cos
     out +=
         "<p>Bars and the number at the right say what an effect costs: the CPU time for a million samples of pixels, "
         "of this scene against the same scene edited so that it does not need the effect, in turn. Length: median. "
-        "Line: from quartile to quartile; where it reaches the bar's left end, or the number is below 0, nothing was "
-        "found. What an effect adds includes what follows from it: without an environment, rays also end sooner. So "
-        "the numbers do not add up to the whole.</p>\n";
+        "Thin line: from quartile to quartile; where it reaches the bar's left end, nothing sure was found. The number "
+        "includes what follows from the edit: without an environment, rays also end sooner. So the numbers do not add "
+        "up to the whole, and one may be below 0: without its diffuse a material may send more rays on.</p>\n";
   out += "<div class=\"scroll\"><div style=\"min-width:860px;padding:8px\">" + drawing_of(plan, scene, costs) +
          "</div></div>\n";
   out += element("h2", "Materials");

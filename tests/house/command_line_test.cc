@@ -89,7 +89,8 @@ std::vector<std::string> every_subcommand() {
 TEST(CommandLine, ListsTheSubcommandsOfEveryRoom) {
   const auto names = subcommands_in(run("--help").out);
   const std::set<std::string> have(names.begin(), names.end());
-  for (const std::string name : {"fit", "convert", "make", "eval", "slice", "cost"}) EXPECT_TRUE(have.contains(name)) << name;
+  for (const std::string name : {"fit", "convert", "make", "eval", "slice", "cost", "render", "plan"})
+    EXPECT_TRUE(have.contains(name)) << name;
 }
 
 TEST(CommandLine, HelpsWithEverySubcommand) {

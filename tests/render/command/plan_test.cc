@@ -303,5 +303,16 @@ TEST(PlanDigest, IsOfTheWorkAndNotOfNames) {
   EXPECT_TRUE(seen.insert(digest_of(plan_of(s))).second);
 }
 
+TEST(PlanDigest, IsOfTheKernelsAndNotOfTheEffectsAlone) {
+  Scene s = plain_scene();
+  s.materials.push_back(s.materials[0]);
+  s.instances.push_back({"other", 0, 1, glm::mat4(1)});
+  Scene first = s, both = s;
+  callisto(first).smooth_terminator = 1;
+  callisto(both).smooth_terminator = callisto(both, 1).smooth_terminator = 1;
+  EXPECT_EQ(names(on(plan_of(first))), names(on(plan_of(both))));
+  EXPECT_NE(digest_of(plan_of(first)), digest_of(plan_of(both)));
+}
+
 }  // namespace
 }  // namespace likeness::plan
