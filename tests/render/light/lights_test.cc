@@ -317,6 +317,19 @@ TEST(Lights, DoNotMindAThousandOfThem) {
   EXPECT_NEAR(static_cast<double>(one.value.r), total / 100, 1e-4 * total);
 }
 
+TEST(Lights, ThatPathsCannotMeetSayThatOnlyTheirChoiceFindsThem) {
+  for (const scene::LightShape& shape : std::initializer_list<scene::LightShape>{
+           scene::RectangleLight{{0, 2, 0}, {1, 0, 0}, {0, 0, 1}, {1, 1, 1}},
+           scene::DiskLight{{0, 2, 0}, {0, -1, 0}, 1, {1, 1, 1}}, scene::SphereLight{{0, 2, 0}, 1, {1, 1, 1}}}) {
+    auto scene = scene_of({shape});
+    EXPECT_GT(Lights(scene).sample_light(0, {0, 0, 0}, {0.3f, 0.6f}).pdf, 0);
+    scene.lights[0].is_visible = false;
+    const Sample s = Lights(scene).sample_light(0, {0, 0, 0}, {0.3f, 0.6f});
+    EXPECT_TRUE(s.is_some());
+    EXPECT_EQ(s.pdf, 0);
+  }
+}
+
 TEST(Lights, OfASceneWithoutAnyAreNone) {
   const scene::Scene scene;
   const Lights lights(scene);

@@ -87,6 +87,9 @@ TEST(Texture, DecodesBytesAndLeavesAlphaAndFloatsAsTheyAre) {
   const scene::Image floats{"", {1, 1, 3, {}, {0.25f, 0.5f, 4}}};
   t.transfer = scene::Transfer::kSrgb;
   EXPECT_EQ(color_at(floats, t, {0, 0}), glm::vec3(0.25f, 0.5f, 4));
+  const scene::Image rgb{"", {1, 1, 3, {0, 0, 188}, {}}};
+  t.channel = 2;
+  EXPECT_NEAR(number_at(rgb, t, {0, 0}), 0.5029, 1e-4);  // the last of three is no alpha
   const scene::Image grey_alpha{"", {1, 1, 2, {188, 51}, {}}};
   t.channel = 1;
   EXPECT_FLOAT_EQ(number_at(grey_alpha, t, {0, 0}), 0.2f);
