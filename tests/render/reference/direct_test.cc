@@ -128,6 +128,18 @@ TEST(Lights, FlushWithACeilingLetNoRayThroughIt) {
   scene.environment = scene::Environment{scene::kNone, {1000, 1000, 1000}, 0};
   scene.cameras = {camera_at({0.3f, 0, 0.2f}, {0, 2, 0.1f}, 8, 8)};
   for (const float x : rendered(scene, {.samples = 16}).picture.rgb) ASSERT_LT(x, 1.1f);
+  // From far below, where a part of the distance is more than what parts the two.
+  scene.cameras = {camera_at({0.3f, -300, 0.2f}, {0, 2, 0.1f}, 8, 8, 100)};
+  for (const float x : rendered(scene, {.samples = 16}).picture.rgb) ASSERT_LT(x, 1.1f);
+}
+
+TEST(Lights, BehindAWallAreNotSeenThroughALightBeforeIt) {
+  auto scene = floor_with(scene::DiskLight{{0, 1, 0}, {0, -1, 0}, 1, {1, 1, 1}});
+  scene.lights.push_back({"", scene::DiskLight{{0, 3, 0}, {0, -1, 0}, 1, {1000, 1000, 1000}}});
+  scene.materials[0] = material_of(lambert(0));
+  scene.instances = {{"wall", 0, 0, placed({0, 2, 0}, 50)}};
+  scene.cameras = {camera_at({0.1f, 0, 0}, {0, 2, 0}, 4, 4, 10)};
+  for (const float x : rendered(scene, {.samples = 4}).picture.rgb) ASSERT_FLOAT_EQ(x, 1);
 }
 
 }  // namespace
