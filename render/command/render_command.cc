@@ -20,6 +20,7 @@
 #include "render/files/interrupt.h"
 #include "render/image/write.h"
 #include "render/plan/plan.h"
+#include "render/runtime/quality.h"
 #include "render/scene/read_scene.h"
 #include "render/view/view.h"
 
@@ -74,6 +75,14 @@ int run(const Request& request) {
   if (!request.size.empty()) size_of(request.size);
   if (request.resumes && !integrator.can_resume)
     throw files::UsageError("--resume: --integrator " + request.integrator + " makes its picture in one go");
+  runtime::Settings settings;
+  if (!request.quality.empty()) {
+    if (request.integrator != "runtime")
+      throw files::UsageError("--quality is of the run-time pipeline; --integrator " + request.integrator +
+                              " has no use for it");
+    settings = runtime::read_quality(request.quality);
+  }
+  settings.seed = options.seed;
   files::catch_interrupts();
   std::optional<tbb::global_control> as_many;
   if (options.threads > 0)
@@ -91,7 +100,7 @@ int run(const Request& request) {
 
   const plan::Plan plan = plan::plan_of(scene, options.camera, force);
   const world::World world(scene, plan);
-  Job job{world, options, request.has_light_layers, {}, {}, {}};
+  Job job{world, options, request.has_light_layers, settings, {}, {}, {}};
   std::error_code ignored;
   if (fs::exists(paths.state, ignored) && integrator.can_resume) {
     if (request.resumes) job.state = paths.state, job.key = full_key(request, scene, options, force);
@@ -140,6 +149,7 @@ constexpr auto kFooter = R"(Examples
   likeness render room.json --time 60 --preview now.png  one minute; now.png shows how far it is
   likeness render room.json --error 1e-3 --layers        until the noise is that small; with depth, normals, lobes ...
   likeness render head.glb --ev 1 --view gt              a mesh file alone, a stop brighter, tonemapped
+  likeness render room.json --quality game.json          as a game would, at the quality that likeness cost chose
   likeness render room.json --resume                     goes on after Ctrl-C; the picture is the same
 
 Ctrl-C writes the picture as far as it is, and OUT.state.exr beside it. Files are whole or absent. The picture does not
@@ -192,6 +202,9 @@ void add_render(CLI::App& program, int& exit_code) {
   for (const Integrator& row : integrators())
     names += (names.empty() ? "" : "; ") + std::string(row.name) + ": " + std::string(row.text);
   app->add_option("--integrator", r->integrator, names)->capture_default_str()->group(how);
+  app->add_option("--quality", r->quality,
+                  "A file of likeness cost --quality: the picture by the run-time pipeline with these settings")
+      ->group(how);
   app->add_option("--bounces", r->bounces, "Of light between camera and source, at most; 1: direct light only")
       ->capture_default_str()
       ->group(how);
@@ -209,7 +222,10 @@ void add_render(CLI::App& program, int& exit_code) {
   app->add_option("--display", r->display, "A display of the config")->group(shown);
   app->add_option("--ocio", r->config, "An OpenColorIO config (default: the scene's, else $OCIO)")->group(shown);
   app->footer(kFooter);
-  app->callback([r, &exit_code] { exit_code = run(*r); });
+  app->callback([r, app, &exit_code] {
+    if (!r->quality.empty() && app->count("--integrator") == 0) r->integrator = "runtime";
+    exit_code = run(*r);
+  });
 }
 
 }  // namespace likeness::render_command

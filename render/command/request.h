@@ -18,6 +18,7 @@ struct Request {
   double seconds = 0, relative_error = 0, seed = 0, bounces = 64, threads = 0;
   bool has_layers = false, has_light_layers = false;
   std::string integrator = "reference", force;
+  std::string quality;  // a file: of the run-time pipeline
   std::optional<std::string> view, display, config;
 };
 

@@ -90,6 +90,28 @@ TEST_F(SceneCost, WritesWhatThereIsWhenItIsInterrupted) {
   EXPECT_FALSE(fs::exists(folder / "stopped/cost.html"));
 }
 
+TEST_F(SceneCost, RenderTakesTheQuality) {
+  const auto render = [&](const std::string& more) {
+    return shell("exec likeness render box/scene.json --size 12x12 --no-png --json " + more);
+  };
+  write("q.json", R"({"format": "likeness quality", "version": 1, "settings": {"pixel_samples": 4}})");
+  const Ran ran = render("--quality q.json");
+  EXPECT_EQ(ran.exit_code, 0) << ran.error;
+  const json::Value root = json::parse(ran.out, "stdout");
+  EXPECT_EQ(root.find("integrator")->text, "runtime");
+  EXPECT_EQ(root.find("samples")->number, 4);
+  EXPECT_EQ(render("--quality q.json --integrator runtime").exit_code, 0);
+  const Ran other = render("--quality q.json --integrator reference");
+  EXPECT_EQ(other.exit_code, 2);
+  EXPECT_THAT(other.error, HasSubstr("--quality is of the run-time pipeline"));
+  write("q.json", "{\"format\": \"likeness quality\", \"version\": 1,\n\"settings\": {\"environment\": \"map\"}}");
+  const Ran wrong = render("--quality q.json");
+  EXPECT_EQ(wrong.exit_code, 3);
+  EXPECT_EQ(lines(wrong.error), 1);
+  EXPECT_THAT(wrong.error, HasSubstr("q.json:2: /settings/environment has no level \"map\""));
+  EXPECT_THAT(wrong.error, HasSubstr("did you mean maps?"));
+}
+
 TEST_F(SceneCost, HelpTeaches) {
   const Ran ran = cost("--help");
   EXPECT_EQ(ran.exit_code, 0);
