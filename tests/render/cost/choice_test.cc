@@ -46,12 +46,28 @@ TEST(Dominance, NeedsMoreThanTheQuartilesAndNoLessExactness) {
   EXPECT_EQ(s.rows[1].dominated_by, "");
   EXPECT_EQ(s.rows[2].dominated_by, "4 pts, 1 shadow");
   EXPECT_EQ(s.rows[3].dominated_by, "");
-  s.rows[1] = row({1, 0, 0}, 9.7, 0.2);  // quartiles 9.2 to 10.2 and 9.5 to 10.5 overlap
+  s.rows[1] = row({1, 0, 0}, 9.3, 0.2);  // quartiles 8.8 to 9.8 and 9.5 to 10.5 overlap
   find_dominated(s);
   EXPECT_EQ(s.rows[2].dominated_by, "");
   s.rows[1] = row({1, 0, 0}, 4, 0.31);
   find_dominated(s);
   EXPECT_EQ(s.rows[2].dominated_by, "") << "faster, but less exact";
+}
+
+TEST(Agreement, IsThatOfRowsThatDidNotFeedTheModel) {
+  Study s = toy_study();
+  for (Row& r : s.rows) r.predicted_cpu_ms = 1.2 * r.timing(true).median;
+  s.rows[0].feeds_model = true, s.rows[0].predicted_cpu_ms = s.rows[0].timing(true).median;
+  s.rows[1].predicted_cpu_ms = 0.5 * s.rows[1].timing(true).median;
+  const auto of_others = agreement_of(s);
+  ASSERT_TRUE(of_others);
+  EXPECT_EQ(of_others->rows, 3u) << "nor the path tracer";
+  EXPECT_NEAR(of_others->median, 0.2, 1e-12);
+  EXPECT_NEAR(of_others->worst, 0.5, 1e-12);
+  for (Row& r : s.rows) r.feeds_model = true;
+  EXPECT_EQ(agreement_of(s)->rows, 4u) << "of all, if there are no others";
+  s.rows.clear();
+  EXPECT_FALSE(agreement_of(s));
 }
 
 TEST(Promising, IsAllOfFew) {
