@@ -73,9 +73,9 @@ void resize(scene::Camera& camera, const Size& size) {
 
 std::size_t picture_bytes(const scene::Camera& camera, bool has_layers, std::size_t light_layers) {
   const std::size_t pixels = static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height);
-  // The film (64, with layers 184), what is written of it (24 and 144; of its state 80 and 200) and the file in memory.
-  const std::size_t film = has_layers ? 184 : 64, written = has_layers ? 200 : 80;
-  return pixels * (film + 2 * written + 2 * 16 * light_layers + 32);
+  // An interrupted render has at once: the film, its layers, its state, and the file of that in a memory that grew to it.
+  const std::size_t film = has_layers ? 184 : 64, written = has_layers ? 144 : 24, state = has_layers ? 200 : 80;
+  return pixels * (film + written + 3 * state + 2 * 16 * light_layers + 32);
 }
 
 void check_memory(const scene::Camera& camera, bool has_layers, std::size_t light_layers, std::size_t available) {
