@@ -118,10 +118,11 @@ std::string verdict_of(const Pages& pages) {
   };
   std::string out = "A frame of the run-time pipeline costs from " + text(fastest) + " to " + text(best) + ".";
   if (pages.study.direct_only)
-    out +=
-        " Light that arrives after more than one bounce is not in any of them: without it even an exact picture has "
-        "FLIP " +
-        number(pages.study.direct_only->flip, 2) + ".";
+    out += " Light of later bounces is in none of them: an exact picture of direct light alone has FLIP " +
+           number(pages.study.direct_only->flip, 2) +
+           (best.errors.flip < pages.study.direct_only->flip
+                ? ", and what is nearer owes it to errors that happen to make up for that."
+                : ".");
   return "<p class=\"verdict\">" + escape(out) + "</p>\n";
 }
 
@@ -221,7 +222,8 @@ std::string prediction_section(const Study& study) {
   std::string out =
       "<h2 id=\"model\">What a frame will take</h2>\n"
       "<p>time = frame + pixel_samples × (sum of passes), each pass at its level, from the frames of the one-at-a-time "
-      "ladders.</p>\n<div class=\"scroll\"><table class=\"metrics\"><thead><tr><th>pass</th><th>level: ms of CPU for "
+      "ladders. Frames of one point a pixel are a little cheaper and have costs of their own, which are not "
+      "shown.</p>\n<div class=\"scroll\"><table class=\"metrics\"><thead><tr><th>pass</th><th>level: ms of CPU for "
       "one "
       "point in each pixel</th></tr></thead><tbody>\n<tr><th scope=\"row\">frame, once</th><td>" +
       number(study.frame_ms) + "</td></tr>\n";

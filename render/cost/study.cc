@@ -192,7 +192,7 @@ class Measurement {
         Levels levels = rest;
         for (std::size_t level = 0; level < runtime::kSettings[s].levels.size(); ++level) {
           levels[s] = level;
-          if (levels != rest && model.predict(levels) > options_.longest_ms) continue;
+          if (level > rest[s] && model.predict(levels) > options_.longest_ms) continue;
           Row& row = add(levels);
           row.feeds_model = true;
           row.in_ladder[s] |= rest == study_.best;

@@ -27,18 +27,17 @@ double rays_of(std::size_t setting, std::size_t level) {
 double points_of(const Levels& levels) { return rays_of(kPixelSamples, levels[kPixelSamples]); }
 
 // Fills levels above those that were measured.
-void extend(TimeModel::Part& part) {
+void extend(std::size_t setting, std::vector<double>& ms) {
   std::vector<std::size_t> known;
-  for (std::size_t i = 0; i < part.ms.size(); ++i)
-    if (!std::isnan(part.ms[i]) && rays_of(part.setting, i) > 0) known.push_back(i);
+  for (std::size_t i = 0; i < ms.size(); ++i)
+    if (!std::isnan(ms[i]) && rays_of(setting, i) > 0) known.push_back(i);
   if (known.empty()) return;
   const std::size_t last = known.back(), before = known.size() > 1 ? known[known.size() - 2] : last;
-  const double x1 = rays_of(part.setting, last), y1 = part.ms[last];
+  const double x1 = rays_of(setting, last), y1 = ms[last];
   double slope = y1 / x1;
-  if (before != last) slope = std::max(0.0, (y1 - part.ms[before]) / (x1 - rays_of(part.setting, before)));
-  for (std::size_t i = 0; i < part.ms.size(); ++i)
-    if (std::isnan(part.ms[i]) && rays_of(part.setting, i) > 0)
-      part.ms[i] = std::max(y1 + slope * (rays_of(part.setting, i) - x1), 0.0);
+  if (before != last) slope = std::max(0.0, (y1 - ms[before]) / (x1 - rays_of(setting, before)));
+  for (std::size_t i = 0; i < ms.size(); ++i)
+    if (std::isnan(ms[i]) && rays_of(setting, i) > 0) ms[i] = std::max(y1 + slope * (rays_of(setting, i) - x1), 0.0);
 }
 
 }  // namespace
@@ -56,26 +55,33 @@ TimeModel::TimeModel(std::span<const FrameTimes> frames) {
     for (const FrameTimes::Pass& pass : f.passes) {
       passes += pass.ms;
       if (std::none_of(parts_.begin(), parts_.end(), [&](const Part& p) { return p.pass == pass.name; }))
-        parts_.push_back({pass.name, setting_of(pass.name), {}});
+        parts_.push_back({pass.name, setting_of(pass.name), {}, {}});
     }
     rest.push_back(f.whole - passes);
   }
   if (!rest.empty()) frame_ = std::max(0.0, median(rest));
   for (Part& part : parts_) {
     const bool varies = part.setting < kSettingCount;
-    std::vector<std::vector<double>> readings(varies ? runtime::kSettings[part.setting].levels.size() : 1);
-    for (const FrameTimes& f : frames)
-      for (const FrameTimes::Pass& pass : f.passes)
-        if (pass.name == part.pass)
-          readings[varies ? f.levels[part.setting] : 0].push_back(pass.ms / points_of(f.levels));
-    for (const auto& r : readings) part.ms.push_back(r.empty() ? kNone : median(r));
-    if (varies) extend(part);
+    for (const bool is_alone : {false, true}) {
+      std::vector<std::vector<double>> readings(varies ? runtime::kSettings[part.setting].levels.size() : 1);
+      for (const FrameTimes& f : frames)
+        for (const FrameTimes::Pass& pass : f.passes)
+          if (pass.name == part.pass && (points_of(f.levels) == 1) == is_alone)
+            readings[varies ? f.levels[part.setting] : 0].push_back(pass.ms / points_of(f.levels));
+      for (const auto& r : readings) (is_alone ? part.ms_alone : part.ms).push_back(r.empty() ? kNone : median(r));
+    }
+    for (std::size_t i = 0; i < part.ms.size(); ++i) {
+      if (std::isnan(part.ms[i])) part.ms[i] = part.ms_alone[i];
+      if (std::isnan(part.ms_alone[i])) part.ms_alone[i] = part.ms[i];
+    }
+    if (varies) extend(part.setting, part.ms), extend(part.setting, part.ms_alone);
   }
 }
 
 double TimeModel::predict(const Levels& levels) const {
   double ms = 0;
-  for (const Part& part : parts_) ms += part.ms[part.setting < kSettingCount ? levels[part.setting] : 0];
+  for (const Part& part : parts_)
+    ms += (points_of(levels) == 1 ? part.ms_alone : part.ms)[part.setting < kSettingCount ? levels[part.setting] : 0];
   return frame_ + points_of(levels) * ms;
 }
 

@@ -11,6 +11,9 @@
 // What a frame will take, from the passes of frames that were measured:
 //
 //   time = frame + pixel_samples x (visibility + light lists + direct(light_samples) + environment(level))
+//
+// A frame of one point a pixel looks through their middles, at neighbors that are more alike: its passes are a tenth
+// cheaper, and are kept apart.
 namespace likeness::scene_cost {
 
 inline constexpr std::size_t kSettingCount = runtime::kSettings.size();
@@ -46,8 +49,9 @@ class TimeModel {
   struct Part {
     std::string pass;
     std::size_t setting = kSettingCount;  // on whose level it depends; kSettingCount: on none
-    // For each level of that setting, or the one cost [ms for each point of a pixel]; NaN: not measured.
-    std::vector<double> ms;
+    // For each level of that setting, or the one cost [ms for each point of a pixel], in frames of several points and of
+    // one; what was measured in one of the two only counts for both. NaN: not measured, and no level to tell it from.
+    std::vector<double> ms, ms_alone;
   };
   const std::vector<Part>& parts() const { return parts_; }
   double frame_ms() const { return frame_; }

@@ -21,11 +21,12 @@ double Axis::at(double value) const {
 
 std::vector<std::pair<double, double>> Axis::ticks() const {
   std::vector<std::pair<double, double>> out;
-  const bool fine = high - low < 2.6;
+  const bool fine = high - low < 2.6, finest = high - low < 0.8;
   for (int e = int(std::floor(low)); e <= int(std::ceil(high)); ++e)
-    for (const double digit : {1.0, 2.0, 5.0}) {
+    for (const double digit : {1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 7.0}) {
       const double value = digit * std::pow(10.0, e), place = std::log10(value);
-      if (place < low || place > high || (digit > 1 && !fine)) continue;
+      const bool is_usual = digit == 1 || (fine && (digit == 2 || digit == 5));
+      if (place < low || place > high || !(is_usual || finest)) continue;
       out.emplace_back(value, at(value));
     }
   return out;

@@ -19,7 +19,7 @@ struct Axis {
   // The values beyond the break.
   bool in_strip(double value) const;
   double at(double value) const;
-  // Of the cluster's part, at 1, 2, 5 or whole decades.
+  // Of the cluster's part: whole decades, with 2 and 5 if it spans few, with more if it spans less than one.
   std::vector<std::pair<double, double>> ticks() const;  // value, place
 };
 

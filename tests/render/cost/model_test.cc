@@ -40,6 +40,15 @@ TEST(TimeModel, ReadsHigherLevelsOffTheLineOfTheLower) {
   EXPECT_NEAR(model.predict({1, 4, 4}) / made_up({1, 4, 4}).whole, 1, 1e-12);
 }
 
+TEST(TimeModel, KeepsFramesOfOnePointApart) {
+  FrameTimes one = made_up({0, 1, 0}), more = made_up({1, 1, 0}), other = made_up({0, 2, 0});
+  one.passes[2].ms *= 0.5, one.whole -= one.passes[2].ms;  // direct
+  const TimeModel model(std::vector{one, more, other});
+  EXPECT_NEAR(model.predict({0, 1, 0}) / one.whole, 1, 1e-12);
+  EXPECT_NEAR(model.predict({2, 1, 0}) / made_up({2, 1, 0}).whole, 1, 1e-12);
+  EXPECT_NEAR(model.predict({1, 2, 0}) / made_up({1, 2, 0}).whole, 1, 1e-12) << "measured with one point only";
+}
+
 TEST(TimeModel, IsNotMovedByOneFrameThatWasDisturbed) {
   std::vector<FrameTimes> frames(5, made_up({0, 0, 0}));
   frames[2].whole *= 9;
