@@ -41,13 +41,20 @@ void show(Context& c, Tile& tile, bool has_dual_normals) {
   for (int y = tile.y; y < tile.y + tile.height; ++y)
     for (int x = tile.x; x < tile.x + tile.width; ++x, ++i) {
       const std::size_t pixel = c.frame.pixel(x, y);
-      ray::Ray& ray = rays[i];
+      const ray::Ray& ray = rays[i];
       ray::Hit& hit = hits[i];
       glm::vec3 radiance(0);
-      for (int passed = 0; hit.is_some() && hit.surface >= instances && passed < kMostLightsPassed; ++passed) {
-        radiance += world.lights.radiance(hit.surface - instances, ray.direction, hit.distance, hit.normal);
-        ray.near = hit.distance * (1 + 1e-5f);
-        hit = world.tracer.closest(ray);
+      if (hit.is_some() && hit.surface >= instances) {
+        // Lights hide nothing: the surface behind them is looked for from the start, as the path tracer does.
+        const ray::Hit behind = world.tracer.closest(ray, ray::Seen::kSurfaces);
+        ray::Ray rest = ray;
+        rest.far = behind.distance;
+        for (int passed = 0; hit.is_some() && passed < kMostLightsPassed; ++passed) {
+          radiance += world.lights.radiance(hit.surface - instances, ray.direction, hit.distance, hit.normal);
+          rest.near = hit.distance * (1 + 1e-5f);
+          hit = world.tracer.closest(rest, ray::Seen::kLights);
+        }
+        hit = behind;
       }
       Cell& cell = c.frame.cells[pixel];
       cell = {};
