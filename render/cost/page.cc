@@ -107,6 +107,9 @@ std::vector<const Row*> by_time(const Pages& pages, bool path_tracer) {
   return rows;
 }
 
+// By less, a frame may be nearer to the reference than exact direct light by its noise alone.
+constexpr double kNearer = 0.95;
+
 std::string verdict_of(const Pages& pages) {
   const std::vector<const Row*> rows = by_time(pages, false);
   if (rows.empty()) return "";
@@ -120,7 +123,7 @@ std::string verdict_of(const Pages& pages) {
   if (pages.study.direct_only)
     out += " Light of later bounces is in none of them: an exact picture of direct light alone has FLIP " +
            number(pages.study.direct_only->flip, 2) +
-           (best.errors.flip < pages.study.direct_only->flip
+           (best.errors.flip < kNearer * pages.study.direct_only->flip
                 ? ", and what is nearer owes it to errors that happen to make up for that."
                 : ".");
   return "<p class=\"verdict\">" + escape(out) + "</p>\n";
@@ -331,9 +334,12 @@ std::string page_of(const Study& study) {
       "all bounces.";
   if (study.direct_only)
     out +=
-        " The green line is an exact picture of direct light alone, which is all that the pipeline renders. A frame "
-        "below it owes that to an error that happens to make up for the missing bounces: maps of the environment "
-        "without shadows are brighter just where later bounces are missing.";
+        std::string(
+            " The green line is an exact picture of direct light alone, which is all that the pipeline renders.") +
+        (study.matters[kEnvironment]
+             ? " A frame well below it owes that to an error that happens to make up for the missing bounces: maps of "
+               "the environment without shadows are brighter just where later bounces are missing."
+             : "");
   out += "</p>\n";
   std::vector<const Row*> all;
   for (const Row& row : study.rows) all.push_back(&row);
