@@ -47,7 +47,7 @@ std::optional<Agreement> agreement_of(const Study& study) {
   }
   const std::vector<double>& used = of_others.empty() ? of_all : of_others;
   if (used.empty()) return {};
-  return Agreement{median(used), quantile(used, 1), used.size()};
+  return Agreement{median(used), quantile(used, 1), used.size(), !of_others.empty()};
 }
 
 std::optional<std::size_t> choice_of(const Study& study, const Budget& budget) {

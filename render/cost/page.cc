@@ -246,10 +246,10 @@ std::string prediction_section(const Study& study) {
   }
   out += "</tbody></table></div>\n";
   if (const auto a = agreement_of(study))
-    out += element("p", "Of " + std::to_string(a->rows) +
-                            " frames that the sum was not made from, the predicted CPU time is off by " +
-                            number(100 * a->median, 2) + " % in the middle and " + number(100 * a->worst, 2) +
-                            " % at most.");
+    out +=
+        element("p", "Of " + std::to_string(a->rows) + " frames that the sum was " + (a->is_of_others ? "not " : "") +
+                         "made from, the predicted CPU time is off by " + number(100 * a->median, 2) +
+                         " % in the middle and " + number(100 * a->worst, 2) + " % at most.");
   return out;
 }
 

@@ -102,6 +102,7 @@ void find_dominated(Study& study);
 struct Agreement {
   double median = 0, worst = 0;
   std::size_t rows = 0;
+  bool is_of_others = false;  // rows that did not feed the model
 };
 std::optional<Agreement> agreement_of(const Study& study);
 

@@ -116,8 +116,9 @@ std::string table_of(const Study& study) {
   if (study.reference.noise) out += indent + line_of("noise of the reference", *study.reference.noise) + "\n";
   out += "\n*: another combination is faster by more than the quartiles, and no less exact by FLIP\n";
   if (const auto a = agreement_of(study))
-    out += "predicted: from the passes of other frames; CPU time off by " + number(100 * a->median, 2) +
-           " % in the middle, " + number(100 * a->worst, 2) + " % at most, of " + std::to_string(a->rows) + " rows\n";
+    out += std::string("predicted: from the passes of ") + (a->is_of_others ? "other" : "all") +
+           " frames; CPU time off by " + number(100 * a->median, 2) + " % in the middle, " + number(100 * a->worst, 2) +
+           " % at most, of " + std::to_string(a->rows) + " rows\n";
   return out;
 }
 

@@ -62,10 +62,12 @@ TEST(Agreement, IsThatOfRowsThatDidNotFeedTheModel) {
   const auto of_others = agreement_of(s);
   ASSERT_TRUE(of_others);
   EXPECT_EQ(of_others->rows, 3u) << "nor the path tracer";
+  EXPECT_TRUE(of_others->is_of_others);
   EXPECT_NEAR(of_others->median, 0.2, 1e-12);
   EXPECT_NEAR(of_others->worst, 0.5, 1e-12);
   for (Row& r : s.rows) r.feeds_model = true;
   EXPECT_EQ(agreement_of(s)->rows, 4u) << "of all, if there are no others";
+  EXPECT_FALSE(agreement_of(s)->is_of_others);
   s.rows.clear();
   EXPECT_FALSE(agreement_of(s));
 }
