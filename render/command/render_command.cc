@@ -224,6 +224,13 @@ void add_render(CLI::App& program, int& exit_code) {
   app->footer(kFooter);
   app->callback([r, app, &exit_code] {
     if (!r->quality.empty() && app->count("--integrator") == 0) r->integrator = "runtime";
+    if (r->integrator == "runtime")
+      for (const char* stranger :
+           {"--spp", "--time", "--error", "--bounces", "--layers", "--light-layers", "--preview"})
+        if (app->count(stranger) > 0)
+          throw files::UsageError(std::string(stranger) +
+                                  " is of the path tracer; with --integrator runtime a --quality " +
+                                  "file says how good the picture is (docs/scene_cost.md)");
     exit_code = run(*r);
   });
 }
