@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 
 #include "render/ray/offset.h"
+#include "render/sampling/heuristic.h"
 
 namespace likeness::reference {
 namespace {
@@ -20,12 +21,6 @@ constexpr int kMostLightsPassed = 64;  // by one ray, before it meets a surface:
 constexpr int kFirstRoulette = 3;
 
 float largest(const glm::vec3& c) { return std::max({c.r, c.g, c.b}); }
-
-// The weight of what was found with density p and could have been found with density q.
-float weighted(float p, float q) {
-  const float ratio = q / p;
-  return 1 / (1 + ratio * ratio);
-}
 
 // Collects what one path finds; with kLayers, by what it was.
 template <unsigned kParts>
@@ -77,7 +72,7 @@ glm::vec3 follow(const world::World& world, ray::Ray ray, sampling::Samples& sam
           if (largest(seen) > 0) {
             const float other =
                 pdf > 0 ? world.lights.light_pdf(light, from, from_normal, ray.direction, hit.distance) : 0.0f;
-            sum.add(throughput * seen * (pdf > 0 ? weighted(pdf, other) : 1.0f), bounces);
+            sum.add(throughput * seen * (pdf > 0 ? sampling::power_heuristic(pdf, other) : 1.0f), bounces);
           }
           rest.near = hit.distance * (1 + 1e-5f);
           hit = world.tracer.closest(rest, ray::Seen::kLights);
@@ -91,7 +86,7 @@ glm::vec3 follow(const world::World& world, ray::Ray ray, sampling::Samples& sam
         float weight = 1;
         if constexpr ((kParts & kLights) != 0)
           if (pdf > 0 && world.lights.samples_environment())
-            weight = weighted(pdf, world.lights.environment_pdf(from, from_normal, ray.direction));
+            weight = sampling::power_heuristic(pdf, world.lights.environment_pdf(from, from_normal, ray.direction));
         sum.add(throughput * world.lights.environment()->radiance(ray.direction) * weight, bounces);
       }
       break;
@@ -110,8 +105,8 @@ glm::vec3 follow(const world::World& world, ray::Ray ray, sampling::Samples& sam
       if (largest(emitted) > 0) {
         float weight = 1;
         if (pdf > 0)
-          weight = weighted(pdf, world.lights.emitter_pdf(hit.surface, hit.triangle, from, from_normal, ray.direction,
-                                                          hit.distance, point.normal));
+          weight = sampling::power_heuristic(pdf, world.lights.emitter_pdf(hit.surface, hit.triangle, from, from_normal,
+                                                                           ray.direction, hit.distance, point.normal));
         sum.add(throughput * emitted * weight, bounces);
       }
     }
@@ -132,7 +127,8 @@ glm::vec3 follow(const world::World& world, ray::Ray ray, sampling::Samples& sam
           if (!world.tracer.occluded({position, 0, light.to_light, far})) {
             if constexpr ((kParts & kLayers) != 0)
               if (bounces == 0) sum.diffuse_part = share_of_diffuse(point.lobes(light.to_light));
-            sum.add(throughput * f.f_cos * light.value * (light.pdf > 0 ? weighted(light.pdf, f.pdf) : 1.0f),
+            sum.add(throughput * f.f_cos * light.value *
+                        (light.pdf > 0 ? sampling::power_heuristic(light.pdf, f.pdf) : 1.0f),
                     bounces + 1);
           }
         }

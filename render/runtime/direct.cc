@@ -4,6 +4,7 @@
 
 #include "render/ray/offset.h"
 #include "render/runtime/pass.h"
+#include "render/sampling/heuristic.h"
 #include "render/sampling/sobol.h"
 
 namespace likeness::runtime {
@@ -38,9 +39,6 @@ struct ShadowRays {
   }
 };
 
-// The power heuristic (Veach and Guibas 1995): the weight of what was found with density p, and could have been with q.
-float weighted(float p, float q) { return 1 / (1 + (q / p) * (q / p)); }
-
 // A direction that the light chooses.
 void add_light_sample(const Context& c, ShadowRays& shadows, std::size_t who, const surface::Point& point,
                       std::size_t index, const glm::vec2& u, float share) {
@@ -50,7 +48,7 @@ void add_light_sample(const Context& c, ShadowRays& shadows, std::size_t who, co
   // Surfaces that shine are not found by directions of a surface's own here.
   const bool is_shared = sample.pdf > 0 && index < c.world.scene.lights.size();
   shadows.add(who, point, sample.to_light, sample.distance,
-              f.f_cos * sample.value * (share * (is_shared ? weighted(sample.pdf, f.pdf) : 1.0f)));
+              f.f_cos * sample.value * (share * (is_shared ? sampling::power_heuristic(sample.pdf, f.pdf) : 1.0f)));
 }
 
 // A direction that the surface chooses, if it meets the light: what makes highlights smooth.
@@ -61,7 +59,8 @@ void add_own_sample(const Context& c, ShadowRays& shadows, std::size_t who, cons
   if (!(own.pdf > 0)) return;
   const light::Sample met = c.world.lights.meet(index, point.position, own.to_light);
   if (!met.is_some()) return;
-  shadows.add(who, point, own.to_light, met.distance, own.weight * met.value * (share * weighted(own.pdf, met.pdf)));
+  shadows.add(who, point, own.to_light, met.distance,
+              own.weight * met.value * (share * sampling::power_heuristic(own.pdf, met.pdf)));
 }
 
 void light(Context& c, const Tile& tile) {

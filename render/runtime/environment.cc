@@ -6,6 +6,7 @@
 
 #include "render/ray/offset.h"
 #include "render/runtime/pass.h"
+#include "render/sampling/heuristic.h"
 #include "render/sampling/sobol.h"
 
 namespace likeness::runtime {
@@ -21,7 +22,6 @@ glm::vec3 by_rays(const Context& c, const surface::Point& point, std::size_t pix
   const auto is_open = [&](const glm::vec3& direction) {
     return !c.world.tracer.occluded({origin, 0, direction, ray::kFar});
   };
-  const auto weight = [](float p, float q) { return 1 / (1 + (q / p) * (q / p)); };
   glm::vec3 sum(0);
   for (int r = 0; r < rays; ++r) {
     sampling::Samples samples(static_cast<std::uint32_t>(pixel),
@@ -30,7 +30,7 @@ glm::vec3 by_rays(const Context& c, const surface::Point& point, std::size_t pix
     const float choice = samples.next_plain();
     const surface::Direction own = point.sample(choice, samples.next());
     if (own.pdf > 0) {
-      const float w = chooses ? weight(own.pdf, environment.pdf(own.to_light)) : 1.0f;
+      const float w = chooses ? sampling::power_heuristic(own.pdf, environment.pdf(own.to_light)) : 1.0f;
       const glm::vec3 gain = own.weight * environment.radiance(own.to_light) * w;
       if ((gain.r > 0 || gain.g > 0 || gain.b > 0) && is_open(own.to_light)) sum += gain;
     }
@@ -38,7 +38,8 @@ glm::vec3 by_rays(const Context& c, const surface::Point& point, std::size_t pix
     const auto chosen = environment.sample(samples.next());
     if (!(chosen.pdf > 0)) continue;
     const surface::Value f = point.eval(chosen.direction);
-    const glm::vec3 gain = f.f_cos * environment.radiance(chosen.direction) * (weight(chosen.pdf, f.pdf) / chosen.pdf);
+    const glm::vec3 gain =
+        f.f_cos * environment.radiance(chosen.direction) * (sampling::power_heuristic(chosen.pdf, f.pdf) / chosen.pdf);
     if ((gain.r > 0 || gain.g > 0 || gain.b > 0) && is_open(chosen.direction)) sum += gain;
   }
   return sum / static_cast<float>(rays);

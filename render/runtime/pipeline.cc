@@ -67,9 +67,7 @@ std::string complaint(const std::vector<Pass>& passes) {
   return {};
 }
 
-Pipeline::Pipeline(const world::World& world) : world_(world) {
-  if (world.lights.environment()) maps_ = EnvironmentMaps(*world.lights.environment());
-}
+Pipeline::Pipeline(const world::World& world) : world_(world) {}
 
 image::Picture Pipeline::frame(std::size_t index, const Settings& settings, int threads,
                                std::vector<PassTime>* times) const {
@@ -86,6 +84,8 @@ image::Picture Pipeline::frame(std::size_t index, const Settings& settings, int 
       tile.width = std::min(kTileWidth, frame.width - x), tile.height = std::min(kTileHeight, frame.height - y);
       frame.tiles.push_back(tile);
     }
+  if (world_.lights.environment() && settings.environment == EnvironmentLevel::kMaps)
+    std::call_once(maps_made_, [&] { maps_ = EnvironmentMaps(*world_.lights.environment()); });
   const std::vector<Pass> passes = passes_of(world_.plan, settings);
   if (times != nullptr) {
     times->clear();

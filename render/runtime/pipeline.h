@@ -1,5 +1,7 @@
 #pragma once
 
+#include <mutex>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -26,7 +28,8 @@ struct PassTime {
   double cpu_seconds = 0;
 };
 
-// A scene that frames are made of: holds what is made once (the maps of the environment).
+// A scene that frames are made of: holds what is made once, by the first frame that reads it (the maps of the
+// environment).
 class Pipeline {
  public:
   // Keeps the world, which must outlive it.
@@ -39,7 +42,8 @@ class Pipeline {
 
  private:
   const world::World& world_;
-  EnvironmentMaps maps_;
+  mutable std::once_flag maps_made_;
+  mutable EnvironmentMaps maps_;
 };
 
 }  // namespace likeness::runtime
