@@ -16,8 +16,8 @@ namespace {
 
 constexpr int kMostLightsPassed = 64;  // by one ray, before it meets a surface: lights do not hide what is behind them
 
-// The first bounces are always followed: ending them early saves less time than the noise costs (in the Cornell box the
-// error at equal time is a third smaller than with roulette from the first bounce on).
+// The first bounces are always followed: ending them early saves less time than its noise costs (seen by
+// tests/benchmark/cycles/compare.py --scenes cornell with 0 here).
 constexpr int kFirstRoulette = 3;
 
 float largest(const glm::vec3& c) { return std::max({c.r, c.g, c.b}); }
