@@ -1,0 +1,23 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "render/capture/capture.h"
+
+// The files of a capture: capture.json, cameras.json, lights.json, frames.json in one folder (docs/capture.md).
+namespace likeness::capture {
+
+// What a hostile file may cost.
+inline constexpr std::size_t kMostCameras = 4096, kMostLights = 16384, kMostFrames = 1 << 20;
+
+// A folder with capture.json, or that file itself. Opens no picture. Throws files::InputError, one line with the file and the line: an
+// unknown key (with the nearest), an id that is not there or twice, a number out of range, a path that leaves the root by
+// ".." (absolute paths are allowed in frames: originals may lie elsewhere).
+Capture read_capture(const std::filesystem::path& path);
+
+// Writes the four files, each whole; capture.json last, so that a folder without it is no capture.
+void write_capture(const Capture& capture);
+
+}  // namespace likeness::capture
