@@ -8,7 +8,7 @@
 #include <glm/matrix.hpp>
 
 #include "render/files/files.h"
-#include "render/scene/fields.h"
+#include "render/scene/format.h"
 #include "render/scene/mend.h"
 #include "render/scene/mesh_file.h"
 #include "render/scene/read_entries.h"

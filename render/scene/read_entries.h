@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <string>
 
-#include "render/scene/fields.h"
+#include "render/scene/format.h"
 #include "render/scene/loading.h"
 
 namespace likeness::scene {

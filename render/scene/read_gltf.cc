@@ -9,7 +9,7 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "render/files/files.h"
-#include "render/scene/fields.h"
+#include "render/scene/format.h"
 #include "render/scene/gltf_document.h"
 #include "render/scene/gltf_materials.h"
 #include "render/scene/mesh_file.h"

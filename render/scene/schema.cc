@@ -8,15 +8,8 @@ namespace likeness::scene {
 namespace {
 
 using files::number_text;
-
-std::string in_json(std::string_view text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') out += '\\';
-    out += c;
-  }
-  return out + '"';
-}
+using json::default_text;
+using json::in_json;
 
 std::string number_schema(const Key& key) {
   return std::string("\"type\": \"") + (key.form == Form::kWhole ? "integer" : "number") + "\", \"" +
@@ -85,17 +78,6 @@ std::string value_schema(const Key& key, std::string_view section) {
   return "";
 }
 
-// The default as JSON; empty if there is none.
-std::string default_text(const Key& key) {
-  const std::string text(key.initial);
-  if (text.empty()) return "";
-  if (key.form == Form::kText || key.form == Form::kChoice) return in_json(text);
-  if (text.find(' ') == std::string::npos) return text;
-  std::string list;
-  for (const char c : text) list += c == ' ' ? std::string(", ") : std::string(1, c);
-  return "[" + list + "]";
-}
-
 std::string section_schema(const Section& section, const std::string& indent) {
   std::string out = indent + "\"description\": " + in_json(section.text) + ",\n" + indent + "\"type\": \"object\",\n" +
                     indent + "\"properties\": {\n" + indent + "  \"comment\": true";
@@ -127,55 +109,6 @@ std::vector<const Section*> all_sections() {
   return out;
 }
 
-std::string range_text(const Key& key) {
-  if (key.range.low == -1e9 && key.range.high == 1e9) return "";
-  if (key.range.low == key.range.high) return ", " + number_text(key.range.low);
-  return std::string(", ") + (key.above ? "above " : "") + number_text(key.range.low) + " to " +
-         number_text(key.range.high);
-}
-
-std::string value_text(const Key& key) {
-  const std::string range = range_text(key);
-  switch (key.form) {
-    case Form::kText:
-      return "text";
-    case Form::kFile:
-      return "file";
-    case Form::kChoice: {
-      std::string words;
-      for (const std::string_view word : key.choices) words += (words.empty() ? "`" : ", `") + std::string(word) + "`";
-      return words;
-    }
-    case Form::kFlag:
-      return "`true`, `false`";
-    case Form::kWhole:
-      return "whole number" + range;
-    case Form::kNumber:
-      return "number" + range;
-    case Form::kPair:
-      return "[x, y]" + range;
-    case Form::kVector:
-      return "[x, y, z]" + range;
-    case Form::kScale:
-      return "number or [x, y, z]" + range;
-    case Form::kColor:
-      return "number or [r, g, b]" + range;
-    case Form::kMatrix:
-      return "3 or 4 rows of 4 numbers";
-    case Form::kParameters:
-      return "object";
-    case Form::kNames:
-      return "object of texts";
-    case Form::kObject:
-      return key.sections[0]->name == key.name ? "object" : std::string(key.sections[0]->name);
-    case Form::kList:
-      return "list of " + std::string(key.sections.size() > 1 ? "lights" : key.name);
-    case Form::kMap:
-      return "object of " + std::string(key.name);
-  }
-  return "";
-}
-
 }  // namespace
 
 std::string schema_text() {
@@ -195,17 +128,7 @@ std::string table_text(std::string_view name) {
   std::vector<const Section*> sections = all_sections();
   sections.push_back(&kSceneSection);
   for (const Section* section : sections) {
-    if (section->name != name) continue;
-    std::string out = "| key | value | default | unit | what it does |\n| --- | --- | --- | --- | --- |\n";
-    for (const Key& key : section->keys) {
-      const std::string initial = default_text(key);
-      out += "| `" + std::string(key.name) + "` | " + value_text(key) + " | " +
-             (key.required      ? "needed"
-              : initial.empty() ? ""
-                                : "`" + initial + "`") +
-             " | " + std::string(key.unit) + " | " + std::string(key.text) + " |\n";
-    }
-    return out;
+    if (section->name == name) return json::table_text(*section);
   }
   return "";
 }

@@ -11,21 +11,21 @@
 #include <glm/vec3.hpp>
 
 #include "render/json/json.h"
-#include "render/scene/format.h"
+#include "render/json/section.h"
 
-namespace likeness::scene {
+namespace likeness::json {
 
 // An object of the file, checked against its section when it is made: unknown keys, missing ones, and values of the
 // wrong kind or outside their range are files::InputErrors of one line that begin "file:line: /path". What is asked
 // for by name afterwards is therefore there, or is the row's default. The tree must outlive it.
 class Fields {
  public:
-  Fields(const std::string& source, const json::Value& value, const Section& section, std::string path);
+  Fields(const std::string& source, const Value& value, const Section& section, std::string path);
 
   const Section& section() const { return *section_; }
   const std::string& path() const { return path_; }
   const std::string& source() const { return *source_; }
-  const json::Value& value() const { return *value_; }
+  const Value& value() const { return *value_; }
 
   bool has(std::string_view key) const { return value_->find(key) != nullptr; }
   // Refuses if both are given.
@@ -53,7 +53,7 @@ class Fields {
   std::vector<double> numbers(std::string_view key) const;
 
   const std::string* source_;
-  const json::Value* value_;
+  const Value* value_;
   const Section* section_;
   std::string path_;
 };
@@ -64,4 +64,4 @@ class Fields {
 // `; did you mean "b"?`, or, if nothing is near, `; there are a, b, c` (or `; there is none`).
 std::string near_text(std::string_view wanted, const std::vector<std::string_view>& names);
 
-}  // namespace likeness::scene
+}  // namespace likeness::json

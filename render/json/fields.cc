@@ -1,4 +1,4 @@
-#include "render/scene/fields.h"
+#include "render/json/fields.h"
 
 #include <algorithm>
 #include <charconv>
@@ -8,12 +8,11 @@
 
 #include "render/files/files.h"
 
-namespace likeness::scene {
+namespace likeness::json {
 namespace {
 
 using files::in_quotes;
 using files::number_text;
-using json::Value;
 
 bool is_matrix(const Value& value) {
   if (!value.is_list() || (value.items.size() != 3 && value.items.size() != 4)) return false;
@@ -69,7 +68,7 @@ bool has_form(const Value& value, Form form) {
     case Form::kChoice:
       return value.is_text();
     case Form::kFlag:
-      return value.kind == json::Kind::kFlag;
+      return value.kind == Kind::kFlag;
     case Form::kWhole:
       return value.is_number() && value.number == std::floor(value.number);
     case Form::kNumber:
@@ -108,7 +107,7 @@ std::string outside_text(const Key& key) {
 // Where a value is no number within its range: what to say behind the path; empty if all is well.
 std::string complaint(const Key& key, const Value& value) {
   if (!has_form(value, key.form)) {
-    std::string found = json::kind_text(value);
+    std::string found = kind_text(value);
     if (value.is_list() && key.form != Form::kMatrix)
       found += " of " + std::to_string(value.items.size()) + (value.items.size() == 1 ? " value" : " values");
     return " is " + found + "; expected " + wanted_text(key) + " (" + std::string(key.text) + ")";
@@ -148,20 +147,20 @@ std::string near_text(std::string_view wanted, const std::vector<std::string_vie
   std::string all = "; there " + std::string(names.size() == 1 ? "is " : "are ");
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (i == 24) return all + ", ...";
-    all += (i ? ", " : "") + json::plain(names[i]);
+    all += (i ? ", " : "") + plain(names[i]);
   }
   return all;
 }
 
 Fields::Fields(const std::string& source, const Value& value, const Section& section, std::string path)
     : source_(&source), value_(&value), section_(&section), path_(std::move(path)) {
-  if (!value.is_object()) refuse(" is " + json::kind_text(value) + "; expected an object");
+  if (!value.is_object()) refuse(" is " + kind_text(value) + "; expected an object");
   std::vector<std::string_view> names;
   for (const Key& key : section.keys) names.push_back(key.name);
   for (const Value& member : value.items) {
     if (member.key == kComment) continue;
     const Key* key = section.find(member.key);
-    const std::string at = path_ + "/" + json::plain(member.key);
+    const std::string at = path_ + "/" + plain(member.key);
     if (!key)
       refuse_at(source, member.line,
                 at + " is not a key of a " + std::string(section.name) + near_text(member.key, names));
@@ -245,18 +244,17 @@ std::vector<Fields> Fields::list(std::string_view key) const {
     const Value& item = member->items[i];
     if (member->is_object() && item.key == kComment) continue;
     const std::string at =
-        path_ + "/" + std::string(key) + "/" + (member->is_object() ? json::plain(item.key) : std::to_string(i));
+        path_ + "/" + std::string(key) + "/" + (member->is_object() ? plain(item.key) : std::to_string(i));
     const Section* section = sections[0];
     if (sections.size() > 1) {
-      if (!item.is_object())
-        refuse_at(*source_, item.line, at + " is " + json::kind_text(item) + "; expected an object");
+      if (!item.is_object()) refuse_at(*source_, item.line, at + " is " + kind_text(item) + "; expected an object");
       const Value* type = item.find("type");
       std::vector<std::string_view> names;
       for (const Section* one : sections) names.push_back(one->name);
       if (!type) refuse_at(*source_, item.line, at + "/type is missing" + near_text("", names));
       const auto found = std::find(names.begin(), names.end(), type->text);
       if (found == names.end())
-        refuse_at(*source_, type->line, at + "/type is " + json::kind_text(*type) + near_text(type->text, names));
+        refuse_at(*source_, type->line, at + "/type is " + kind_text(*type) + near_text(type->text, names));
       section = sections[static_cast<std::size_t>(found - names.begin())];
     }
     out.emplace_back(*source_, item, *section, at);
@@ -270,4 +268,4 @@ std::optional<Fields> Fields::object(std::string_view key) const {
   return Fields(*source_, *member, *section_->find(key)->sections[0], path_ + "/" + std::string(key));
 }
 
-}  // namespace likeness::scene
+}  // namespace likeness::json
