@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -225,7 +226,10 @@ ErrorMap flip(const DisplayPicture& reference, const DisplayPicture& render, con
   return out;
 }
 
-HdrErrorMap hdr_flip(const Picture& reference, const Picture& render, const FlipOptions& options) {
+namespace {
+
+HdrErrorMap largest_over(const Picture& reference, const Picture& render, const std::optional<Exposures>& exposures,
+                         const FlipOptions& options) {
   const Size size = size_of_both(reference, render);
   const Filters filters(options);
   HdrErrorMap out;
@@ -234,7 +238,7 @@ HdrErrorMap hdr_flip(const Picture& reference, const Picture& render, const Flip
   out.error.resize(size.count());
   if (size.count() == 0) return out;
   const Picture truth = finite(reference, out.not_finite), found = finite(render, out.not_finite);
-  const auto [start, stop] = exposures_of(truth);
+  const auto [start, stop] = exposures ? std::array{exposures->first_ev, exposures->last_ev} : exposures_of(truth);
   out.start_ev = start;
   out.stop_ev = stop;
   out.exposures = stop > start ? std::max(2, static_cast<int>(std::ceil(stop - start))) : 1;
@@ -255,6 +259,21 @@ HdrErrorMap hdr_flip(const Picture& reference, const Picture& render, const Flip
   }
   out.mean = mean_of(out.error);
   return out;
+}
+
+}  // namespace
+
+HdrErrorMap hdr_flip(const Picture& reference, const Picture& render, const FlipOptions& options) {
+  return largest_over(reference, render, {}, options);
+}
+
+HdrErrorMap hdr_flip_over(const Exposures& exposures, const Picture& reference, const Picture& render,
+                          const FlipOptions& options) {
+  const auto& [first, last] = exposures;
+  if (!(std::isfinite(first) && std::isfinite(last) && first <= last && last - first <= 64))
+    throw std::invalid_argument("hdr_flip: exposures from " + std::to_string(first) + " to " + std::to_string(last) +
+                                " stops; the first must not be above the last, nor 64 stops below it");
+  return largest_over(reference, render, exposures, options);
 }
 
 }  // namespace likeness::image

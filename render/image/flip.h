@@ -44,6 +44,14 @@ struct HdrErrorMap : ErrorMap {
 // least 2^-24 of the largest. A black reference has the one exposure 0.
 HdrErrorMap hdr_flip(const Picture& reference, const Picture& render, const FlipOptions& options = {});
 
+// The same over stated exposures, so that errors of several pairs can be compared: from first_ev to last_ev, at most one
+// stop apart. Finite, first_ev <= last_ev, at most 64 stops apart, else std::invalid_argument.
+struct Exposures {
+  double first_ev = 0, last_ev = 0;
+};
+HdrErrorMap hdr_flip_over(const Exposures& exposures, const Picture& reference, const Picture& render,
+                          const FlipOptions& options = {});
+
 // A map for the eye: black, violet, orange, pale yellow (the magma map, as in the paper). Values outside [0, 1] are
 // clamped, NaN is 0.
 DisplayPicture error_picture(const ErrorMap& map);

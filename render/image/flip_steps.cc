@@ -5,23 +5,18 @@
 #include <cmath>
 #include <numbers>
 
+#include "render/image/cie_lab.h"
+
 namespace likeness::image::flip_steps {
 namespace {
 
-using Matrix = std::array<std::array<double, 3>, 3>;
-
-// Linear sRGB to XYZ, the ratios of the integers that its primaries and D65 give.
-constexpr Matrix kXyzOfRgb{{{10135552.0 / 24577794, 8788810.0 / 24577794, 4435075.0 / 24577794},
-                            {2613072.0 / 12288897, 8788810.0 / 12288897, 887015.0 / 12288897},
-                            {1425312.0 / 73733382, 8788810.0 / 73733382, 70074185.0 / 73733382}}};
-
-constexpr double white(std::size_t row) { return kXyzOfRgb[row][0] + kXyzOfRgb[row][1] + kXyzOfRgb[row][2]; }
+using Matrix = Matrix3;
 
 // XYZ over that of white, so that white is (1, 1, 1).
 constexpr Matrix normalized() {
   Matrix out{};
   for (std::size_t i = 0; i < 3; ++i)
-    for (std::size_t j = 0; j < 3; ++j) out[i][j] = kXyzOfRgb[i][j] / white(i);
+    for (std::size_t j = 0; j < 3; ++j) out[i][j] = kXyzOfRec709[i][j] / kWhiteOfRec709[i];
   return out;
 }
 
@@ -46,11 +41,6 @@ Triple times(const Matrix& m, const Triple& v) {
     return static_cast<float>(m[i][0]) * v.x + static_cast<float>(m[i][1]) * v.y + static_cast<float>(m[i][2]) * v.z;
   };
   return {row(0), row(1), row(2)};
-}
-
-float lab_curve(float t) {  // CIE 1976
-  constexpr float kDelta = 6.0f / 29;
-  return t > kDelta * kDelta * kDelta ? std::cbrt(t) : t / (3 * kDelta * kDelta) + 4.0f / 29;
 }
 
 struct Sensitivity {
