@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 
 #include "render/files/files.h"
 
@@ -22,10 +23,11 @@ bool is_matrix(const Value& value) {
   });
 }
 
-bool is_numbers(const Value& value, std::size_t count) {
-  return value.is_list() && value.items.size() == count &&
+bool is_numbers(const Value& value) {
+  return value.is_list() &&
          std::all_of(value.items.begin(), value.items.end(), [](const Value& n) { return n.is_number(); });
 }
+bool is_numbers(const Value& value, std::size_t count) { return is_numbers(value) && value.items.size() == count; }
 
 std::string wanted_text(const Key& key) {
   switch (key.form) {
@@ -50,6 +52,10 @@ std::string wanted_text(const Key& key) {
       return "a number or a list of three";
     case Form::kMatrix:
       return "three or four rows of four numbers: [[1, 0, 0, x], [0, 1, 0, y], [0, 0, 1, z]]";
+    case Form::kNumbers:
+      return "a list of numbers";
+    case Form::kTexts:
+      return "a list of texts";
     case Form::kList:
       return "a list of objects";
     case Form::kParameters:
@@ -82,6 +88,11 @@ bool has_form(const Value& value, Form form) {
       return value.is_number() || is_numbers(value, 3);
     case Form::kMatrix:
       return is_matrix(value);
+    case Form::kNumbers:
+      return is_numbers(value);
+    case Form::kTexts:
+      return value.is_list() &&
+             std::all_of(value.items.begin(), value.items.end(), [](const Value& t) { return t.is_text(); });
     case Form::kList:
       return value.is_list();
     case Form::kParameters:
@@ -116,7 +127,7 @@ std::string complaint(const Key& key, const Value& value) {
     return " = " + in_quotes(value.text) + " is not known" +
            near_text(value.text, std::vector<std::string_view>(key.choices.begin(), key.choices.end()));
   if (value.is_number() && !inside(key, value.number)) return " = " + number_text(value.number) + outside_text(key);
-  if (value.is_list() && key.form != Form::kList && key.form != Form::kMatrix)
+  if (value.is_list() && key.form != Form::kList && key.form != Form::kTexts && key.form != Form::kMatrix)
     for (std::size_t i = 0; i < value.items.size(); ++i)
       if (!inside(key, value.items[i].number))
         return "/" + std::to_string(i) + " = " + number_text(value.items[i].number) + outside_text(key);
@@ -193,6 +204,13 @@ bool Fields::flag(std::string_view key) const {
   return member ? member->number != 0 : section_->find(key)->initial == "true";
 }
 
+std::vector<std::string> Fields::texts(std::string_view key) const {
+  std::vector<std::string> out;
+  if (const Value* member = value_->find(key))
+    for (const Value& item : member->items) out.push_back(item.text);
+  return out;
+}
+
 std::vector<double> Fields::numbers(std::string_view key) const {
   std::vector<double> out;
   if (const Value* member = value_->find(key)) {
@@ -224,6 +242,24 @@ glm::dmat4 Fields::matrix(std::string_view key) const {
   for (std::size_t r = 0; r < rows.items.size(); ++r)
     for (std::size_t c = 0; c < 4; ++c) out[static_cast<int>(c)][static_cast<int>(r)] = rows.items[r].items[c].number;
   return out;
+}
+
+glm::dmat4 Fields::rigid(std::string_view key) const {
+  glm::dmat4 m = matrix(key);
+  for (int c = 0; c < 3; ++c) {
+    const double length = glm::length(glm::dvec3(m[c]));
+    if (!(std::abs(length - 1) < 1e-3))
+      refuse(key, ": column " + std::to_string(c) + " has the length " + number_text(length) +
+                      "; expected 1, as a camera is turned and moved but not scaled");
+  }
+  const double turn = glm::determinant(glm::dmat3(m));
+  if (!(std::abs(turn - 1) < 1e-2)) refuse(key, " is not a turn (determinant " + number_text(turn) + "; expected 1)");
+  const glm::dvec3 z = glm::normalize(glm::dvec3(m[2]));
+  const glm::dvec3 x = glm::normalize(glm::cross(glm::dvec3(m[1]), z));
+  m[0] = glm::dvec4(x, 0);
+  m[1] = glm::dvec4(glm::cross(z, x), 0);
+  m[2] = glm::dvec4(z, 0);
+  return m;
 }
 
 glm::dvec3 Fields::direction(std::string_view key) const {

@@ -38,6 +38,11 @@ class Fields {
   glm::dvec2 pair(std::string_view key) const;
   glm::dvec3 vector(std::string_view key) const;  // of a scale and a color too
   glm::dmat4 matrix(std::string_view key) const;  // must be given
+  // A camera's matrix as a frame: columns unit and square to rounding. Refuses one that scales or mirrors.
+  glm::dmat4 rigid(std::string_view key) const;
+  // A list, of one if a number is given; the default, or else 0, if nothing is.
+  std::vector<double> numbers(std::string_view key) const;
+  std::vector<std::string> texts(std::string_view key) const;
   // A unit vector along it; refuses one without length.
   glm::dvec3 direction(std::string_view key) const;
 
@@ -50,8 +55,6 @@ class Fields {
   [[noreturn]] void refuse(const std::string& text) const;
 
  private:
-  std::vector<double> numbers(std::string_view key) const;
-
   const std::string* source_;
   const Value* value_;
   const Section* section_;

@@ -42,6 +42,10 @@ std::string value_text(const Key& key) {
       return "number or [r, g, b]" + range;
     case Form::kMatrix:
       return "3 or 4 rows of 4 numbers";
+    case Form::kNumbers:
+      return "list of numbers" + range;
+    case Form::kTexts:
+      return "list of texts";
     case Form::kParameters:
       return "object";
     case Form::kNames:

@@ -22,6 +22,8 @@ enum class Form {
   kScale,       // a number, or [x, y, z]
   kColor,       // linear RGB: a number for all three, or [r, g, b]
   kMatrix,      // three or four rows of four numbers; the fourth is 0 0 0 1
+  kNumbers,     // a list of any length
+  kTexts,       // a list of texts
   kParameters,  // of a surface model: by name a number, [r, g, b], or a texture
   kNames,       // an object of texts
   kObject,      // of the one section

@@ -13,26 +13,6 @@ namespace {
 
 constexpr double kRadian = std::numbers::pi / 180;
 
-// Rows and columns of a camera's matrix to a frame: unit and square, or refused.
-glm::dmat4 rigid(const Fields& fields) {
-  glm::dmat4 m = fields.matrix("matrix");
-  for (int c = 0; c < 3; ++c) {
-    const double length = glm::length(glm::dvec3(m[c]));
-    if (!(std::abs(length - 1) < 1e-3))
-      fields.refuse("matrix", ": column " + std::to_string(c) + " has the length " + files::number_text(length) +
-                                  "; expected 1, as a camera is turned and moved but not scaled");
-  }
-  if (!(std::abs(glm::determinant(glm::dmat3(m)) - 1) < 1e-2))
-    fields.refuse("matrix", " is not a turn (determinant " + files::number_text(glm::determinant(glm::dmat3(m))) +
-                                "; expected 1)");
-  const glm::dvec3 z = glm::normalize(glm::dvec3(m[2]));
-  const glm::dvec3 x = glm::normalize(glm::cross(glm::dvec3(m[1]), z));
-  m[0] = glm::dvec4(x, 0);
-  m[1] = glm::dvec4(glm::cross(z, x), 0);
-  m[2] = glm::dvec4(z, 0);
-  return m;
-}
-
 }  // namespace
 
 glm::dmat4 look_along(const glm::dvec3& position, const glm::dvec3& forward, const glm::dvec3& up) {
@@ -55,7 +35,7 @@ Camera camera_of(const Fields& fields) {
   double focus = 1;
   if (fields.has("matrix")) {
     for (const char* key : {"position", "target", "up"}) fields.only_one_of(key, "matrix");
-    out.world_from_camera = glm::mat4(rigid(fields));
+    out.world_from_camera = glm::mat4(fields.rigid("matrix"));
   } else {
     const glm::dvec3 position = fields.vector("position");
     glm::dvec3 way(0, 0, -1);

@@ -63,6 +63,10 @@ std::string value_schema(const Key& key, std::string_view section) {
       return "\"oneOf\": [{" + number + "}, {" + list_schema(number, 3, 3) + "}]";
     case Form::kMatrix:
       return list_schema(list_schema(number, 4, 4), 3, 4);
+    case Form::kNumbers:
+      return "\"type\": \"array\", \"items\": {" + number + "}";
+    case Form::kTexts:
+      return "\"type\": \"array\", \"items\": {\"type\": \"string\"}";
     case Form::kParameters:
       return map_schema("\"oneOf\": [{\"type\": \"number\"}, {" + list_schema("\"type\": \"number\"", 3, 3) + "}, {" +
                         reference(*key.sections[0]) + "}]");
