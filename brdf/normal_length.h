@@ -34,6 +34,13 @@ struct NormalShortening {
   }
 };
 
+// What is missing from 1 in the length below, without the subtraction: alpha^2 q. [0, 1/3].
+template <Scalar S>
+S normal_deficit(const S& alpha) {
+  const S a = larger(clamp01(alpha), constant<S>(kTiny<S>)), alpha2 = a * a;
+  return alpha2 * NormalShortening<S>(S((S(1) - a) * (S(1) + a)), alpha2, S(log(a))).q;
+}
+
 // Mean of the normals of a GGX surface, each weighted by the part of the flat surface that it covers: the integral of
 // (h . n) D(h) cos over the hemisphere. [2/3, 1], falling with alpha.
 //
@@ -46,8 +53,7 @@ struct NormalShortening {
 // Departures  written 1 - alpha^2 q (NormalShortening): nothing cancels at alpha 0, and at alpha 1 it is no 0 / 0.
 template <Scalar S>
 S normal_length(const S& alpha) {
-  const S a = larger(clamp01(alpha), constant<S>(kTiny<S>)), alpha2 = a * a;
-  return S(1) - alpha2 * NormalShortening<S>(S((S(1) - a) * (S(1) + a)), alpha2, S(log(a))).q;
+  return S(1) - normal_deficit(alpha);
 }
 
 // alpha^2 within 7 % from a deficit in (0, 1/3], for alpha in [1e-12, 1]: the leading term of the inverse below, with one

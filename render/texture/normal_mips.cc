@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "brdf/normal_length.h"
+#include "render/texture/halving.h"
 #include "render/texture/texture.h"
 
 namespace likeness::texture {
@@ -41,36 +42,15 @@ Means means_of(const scene::Image& image, const scene::Texture& texture, const R
   return out;
 }
 
-// One axis: the texels of the finer level that a texel of the coarser covers, and how much of each.
-struct Cover {
-  int first = 0, last = 0;   // both included
-  double low = 1, high = 1;  // shares of the first and of the last; those between count whole
-  double share(int i) const {
-    return i == first && i == last ? low + high - 1 : i == first ? low : i == last ? high : 1;
-  }
-};
-Cover cover(int index, int fine, int coarse) {
-  const double begin = static_cast<double>(index) * fine / coarse, end = static_cast<double>(index + 1) * fine / coarse;
-  Cover c;
-  c.first = static_cast<int>(std::floor(begin));
-  c.last = std::min(static_cast<int>(std::ceil(end)), fine) - 1;
-  c.low = c.first + 1 - begin, c.high = end - c.last;
-  return c;
-}
-
 Means halved(const Means& fine) {
-  Means out{std::max(1, fine.width / 2), std::max(1, fine.height / 2), {}};
+  Means out{half_of(fine.width), half_of(fine.height), {}};
   for (int y = 0; y < out.height; ++y) {
     const Cover rows = cover(y, fine.height, out.height);
     for (int x = 0; x < out.width; ++x) {
-      const Cover columns = cover(x, fine.width, out.width);
       Vec sum;
       double weight = 0;
-      for (int j = rows.first; j <= rows.last; ++j)
-        for (int i = columns.first; i <= columns.last; ++i) {
-          const double w = rows.share(j) * columns.share(i);
-          sum = sum + fine.of(i, j) * w, weight += w;
-        }
+      for_covered(cover(x, fine.width, out.width), rows,
+                  [&](int i, int j, double share) { sum = sum + fine.of(i, j) * share, weight += share; });
       out.at.push_back(sum * (1 / weight));
     }
   }
