@@ -30,6 +30,7 @@ struct Camera {
   std::array<double, 5> distortion{};  // k1 k2 p1 p2 k3 of OpenCV; what the files hold unless is_undistorted
   bool is_undistorted = true;
   glm::dmat4 world_from_camera{1};
+  glm::dmat3 rec709_from_camera{1};  // what linear colors of frames with Primaries::kCamera are multiplied by
 };
 
 // A light that is so far away that it shines from one direction.
@@ -117,12 +118,16 @@ struct Capture {
   std::vector<LayerFile> layers;
   std::vector<Variant> variants;
   Pipeline pipeline;
-  std::vector<glm::dvec3> noise_floor;          // of each camera, linear [the photo's unit], or empty: not measured
+  // Of each camera, linear [the photo's unit], or empty: not measured. 0 of a camera: not measured there.
+  std::vector<glm::dvec3> noise_floor;
   double flip_first_ev = -4, flip_last_ev = 3;  // exposures that HDR-FLIP takes, the same for the whole capture
   std::string license, citation, source;
 };
 
 inline constexpr std::size_t kAbsent = ~std::size_t{0};
+
+// Whether a text can be an id.
+bool is_id(std::string_view text);
 
 // Position of an id in its list, or kAbsent.
 std::size_t camera_of(const Capture& capture, std::string_view id);
@@ -141,7 +146,11 @@ class FrameTable {
   std::vector<std::size_t> frames_;
 };
 
-// The file of a render, or of a layer, absolute; a layer that the camera does not have: an empty path.
+// A pattern with {camera}, {light} and {variant} replaced; other braces stay.
+std::string filled(std::string_view pattern, std::string_view camera, std::string_view light,
+                   std::string_view variant = {});
+
+// The file of a render, or of a layer, below the root or absolute; a layer that the camera does not have: an empty path.
 std::filesystem::path render_file(const Capture& capture, const Variant& variant, std::size_t camera,
                                   std::size_t light);
 std::filesystem::path photo_file(const Capture& capture, const Frame& frame);

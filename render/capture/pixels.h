@@ -25,11 +25,16 @@ struct Photo {
 
 // decode(file) -> (x - black) / (white - black) -> transfer curve undone -> matrix to Rec. 709 -> gain -> flat field
 // -> / Light::intensity. Frames without a light of their own are not divided. Throws files::InputError: the file is absent,
-// damaged, or of another size than its camera.
+// damaged, or of another size than its camera. The flat field is that of the camera's layer; the ambient frame, if there
+// is one, is not subtracted here. Pictures are as distorted as their files.
 Photo read_photo(const Capture& capture, std::size_t frame);
 
 // A render: linear Rec. 709 as its file holds it (of a light of intensity 1, 1, 1).
 image::Picture read_render(const Capture& capture, const Variant& variant, std::size_t camera, std::size_t light);
+
+// decode(file) and nothing else: the numbers of the file, integers divided by their largest, three channels (grey is
+// repeated). What read_photo begins with, for tools that look at the encoding itself.
+image::Picture read_encoded(const std::filesystem::path& file);
 
 // 1 inside, 0 outside; all 1 for a camera without a mask. From the mask's green channel, at least half of its range.
 std::vector<std::uint8_t> read_mask(const Capture& capture, std::size_t camera);
