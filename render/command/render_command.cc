@@ -218,7 +218,7 @@ void add_render(CLI::App& program, int& exit_code) {
 
   const std::string shown = "How the PNG shows it, instead of what the scene says";
   app->add_option("--ev", r->ev, "Exposure [stops]")->group(shown);
-  app->add_option("--view", r->view, "srgb, gt, aces, or a view of the OpenColorIO config")->group(shown);
+  app->add_option("--view", r->view, "srgb, gt, khronos, agx, aces, or a view of the OpenColorIO config")->group(shown);
   app->add_option("--display", r->display, "A display of the config")->group(shown);
   app->add_option("--ocio", r->config, "An OpenColorIO config (default: the scene's, else $OCIO)")->group(shown);
   app->footer(kFooter);

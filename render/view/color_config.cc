@@ -93,7 +93,7 @@ PixelTransform view_of_config(const std::string& named, const std::string& displ
   if (file.empty())
     throw InputError(
         "view " + in_quotes(view) +
-        " is none of srgb, gt and aces, and no OpenColorIO config is named (in the scene's view, or by $OCIO)");
+        " is none of srgb, gt, khronos, agx and aces, and no OpenColorIO config is named (in the scene's view, or by $OCIO)");
   // OpenColorIO reads what it is given whatever it is; a folder or a file of gigabytes is refused here.
   constexpr std::size_t kMostBytes = std::size_t{64} << 20;
   files::read_whole(file, kMostBytes);
@@ -119,16 +119,43 @@ PixelTransform view_of_config(const std::string& named, const std::string& displ
   }
 }
 
+namespace {
+
+// Throws std::runtime_error where OpenColorIO was built without ACES.
+ocio::ConstProcessorRcPtr aces_processor() {
+  ocio::GroupTransformRcPtr steps = aces_of_rec709();
+  steps->appendTransform(built_in("ACES-OUTPUT - ACES2065-1_to_CIE-XYZ-D65 - SDR-VIDEO_1.0"));
+  steps->appendTransform(built_in("DISPLAY - CIE-XYZ-D65_to_sRGB"));
+  const ocio::ConfigRcPtr config = ocio::Config::CreateRaw()->createEditableCopy();
+  config->setVersion(2, 1);
+  return config->getProcessor(steps);
+}
+
+[[noreturn]] void no_aces(const ocio::Exception& e) {
+  throw std::runtime_error("view aces: this OpenColorIO has no ACES transforms (" + one_line(e.what()) + ")");
+}
+
+}  // namespace
+
 PixelTransform aces_view() {
   try {
-    ocio::GroupTransformRcPtr steps = aces_of_rec709();
-    steps->appendTransform(built_in("ACES-OUTPUT - ACES2065-1_to_CIE-XYZ-D65 - SDR-VIDEO_1.0"));
-    steps->appendTransform(built_in("DISPLAY - CIE-XYZ-D65_to_sRGB"));
-    const ocio::ConfigRcPtr config = ocio::Config::CreateRaw()->createEditableCopy();
-    config->setVersion(2, 1);
-    return pixels_of(config->getProcessor(steps));
+    return pixels_of(aces_processor());
   } catch (const ocio::Exception& e) {
-    throw std::runtime_error("view aces: this OpenColorIO has no ACES transforms (" + one_line(e.what()) + ")");
+    no_aces(e);
+  }
+}
+
+std::string aces_shader_text() {
+  try {
+    ocio::GpuShaderDescRcPtr shader = ocio::GpuShaderDesc::CreateShaderDesc();
+    shader->setLanguage(ocio::GPU_LANGUAGE_GLSL_ES_3_0);
+    shader->setFunctionName("aces_view");
+    aces_processor()->getDefaultGPUProcessor()->extractGpuShaderInfo(shader);
+    if (shader->getNumTextures() + shader->getNum3DTextures() > 0)
+      throw std::runtime_error("view aces: this OpenColorIO needs textures for its ACES transforms");
+    return shader->getShaderText();
+  } catch (const ocio::Exception& e) {
+    no_aces(e);
   }
 }
 

@@ -15,4 +15,8 @@ PixelTransform view_of_config(const std::string& config, const std::string& disp
 // ACES 1.0 SDR Video for sRGB, from OpenColorIO's built-in transforms.
 PixelTransform aces_view();
 
+// The same as a function of GLSL ES 3.00, `vec4 aces_view(vec4)`, that reads no texture: OpenColorIO's own text, which
+// agrees with its CPU path to rounding.
+std::string aces_shader_text();
+
 }  // namespace likeness::view

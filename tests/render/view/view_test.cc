@@ -8,10 +8,13 @@
 #include <cstdlib>
 #include <limits>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "brdf/lighting/gt_tonemap.h"
 #include "render/files/files.h"
 #include "render/image/tone_curve.h"
+#include "render/view/color_config.h"
 #include "tests/render/temporary_folder.h"
 
 namespace likeness::view {
@@ -129,6 +132,70 @@ TEST(GtView, IsTheTonemapperThenTheCurve) {
   EXPECT_EQ(shown(kInfinity, {.name = "gt"}), 255);
 }
 
+TEST(GtView, TakesParameters) {
+  brdf::GtTonemap<float> gt;
+  gt.contrast = 1.5f;
+  gt.linear_start = 0.1f;
+  const DisplayPicture picture = Shower({0, "gt", "", ""}, gt).show(steps());
+  const Picture light = steps();
+  for (std::size_t i = 0; i < light.rgb.size(); ++i)
+    EXPECT_EQ(picture.rgb[i], image::srgb_encode8(gt.eval(light.rgb[i])));
+}
+
+TEST(KhronosView, IsTheSpecificationsAtHandComputedColors) {
+  const View khronos{.name = "khronos"};
+  EXPECT_EQ(shown(0.18f, khronos), image::srgb_encode8(0.14f)) << "0.04 of sheen are taken off";
+  EXPECT_EQ(shown(0.05f, khronos), image::srgb_encode8(0.015625f)) << "0.05^2 / 0.16 remain below the sheen";
+  EXPECT_EQ(shown(1, khronos), image::srgb_encode8(1 - 0.0576f / 0.44f)) << "beyond the knee";
+  Picture red(1, 1);
+  red.rgb = {2, 0.1f, 0.1f};  // f = 0.04: p = 1.96, q = 0.96, g = 1 / 1.15
+  const DisplayPicture shown_red = show(red, khronos);
+  EXPECT_EQ(shown_red.rgb[0], image::srgb_encode8(0.96f));
+  EXPECT_EQ(shown_red.rgb[1], image::srgb_encode8(0.06f * 0.96f / 1.96f / 1.15f + 0.96f * (1 - 1 / 1.15f)));
+}
+
+TEST(AgxView, PutsMiddleGreyInTheMiddleAndKeepsGreyGrey) {
+  const View agx{.name = "agx"};
+  EXPECT_EQ(shown(0.18f, agx), 128) << "the pivot of the sigmoid";
+  EXPECT_EQ(shown(0.18f * 90.5f, agx), 255) << "6.5 stops above: the end of the logarithm";
+  EXPECT_LE(shown(0.18f / 1024, agx), 1) << "10 stops below";
+  const DisplayPicture picture = show(grey(0.5f), agx);
+  EXPECT_EQ(picture.rgb[0], picture.rgb[1]);
+  EXPECT_EQ(picture.rgb[1], picture.rgb[2]);
+}
+
+TEST(OwnViews, RiseAndTakeEveryFloat) {
+  for (const std::string_view own : kOwnViews) {
+    const View view{.name = std::string(own)};
+    int before = 0;
+    for (float v = 1e-6f; v < 1e6f; v *= 1.1f) {
+      EXPECT_GE(shown(v, view) + (own == "khronos" ? 1 : 0), before) << own << " " << v;
+      before = shown(v, view);
+    }
+    for (const float v : {kNan, -kInfinity, -1.0f, 0.0f}) EXPECT_LE(shown(v, view), 1) << own << " " << v;
+    EXPECT_GE(shown(kInfinity, view), 254) << own;
+  }
+}
+
+TEST(OwnViews, AreTheSameBeforeRounding) {
+  for (const std::string_view own : kOwnViews) {
+    const Shower shower({1.5, std::string(own), "", ""});
+    const DisplayPicture bytes = shower.show(steps());
+    std::vector<float> floats = steps().rgb;
+    shower.encode(floats);
+    for (std::size_t i = 0; i < floats.size(); ++i) {
+      EXPECT_TRUE(floats[i] >= 0 && floats[i] <= 1) << own;
+      EXPECT_NEAR(255 * floats[i], bytes.rgb[i], 0.501) << own;
+    }
+  }
+}
+
+TEST(AcesView, HasAShaderThatReadsNoTexture) {
+  const std::string text = aces_shader_text();
+  EXPECT_THAT(text, HasSubstr("vec4 aces_view("));
+  EXPECT_EQ(text.find("sampler"), std::string::npos);
+}
+
 TEST(AcesView, ShowsMiddleGreyWhereAcesHasIt) {
   const View aces{.name = "aces"};
   EXPECT_EQ(shown(0.18f, aces), 91) << "0.35595 of the ACES 1.0 SDR output for sRGB";
@@ -179,7 +246,8 @@ TEST(ConfigView, OfTheEnvironmentIsTheDefault) {
   EXPECT_EQ(shown(0.18f, {.name = "aces"}), 91) << "the built-in view needs no config";
   EXPECT_THAT(error_of({.name = "aces", .display = "screen"}), HasSubstr("has no view \"aces\""));
   unsetenv("OCIO");
-  EXPECT_THAT(error_of({.name = "root"}), AllOf(HasSubstr("none of srgb, gt and aces"), HasSubstr("$OCIO")));
+  EXPECT_THAT(error_of({.name = "root"}),
+              AllOf(HasSubstr("none of srgb, gt, khronos, agx and aces"), HasSubstr("$OCIO")));
 }
 
 TEST(ConfigView, ErrorsNameWhatThereIs) {
@@ -212,7 +280,8 @@ TEST(ConfigView, OfThePublishedAcesConfigIsTheBuiltInOne) {
 TEST(Views, DoNotDependOnTheNumberOfThreadsOrOnTheSizeOfThePicture) {
   Picture large(37, 200);
   for (std::size_t i = 0; i < large.rgb.size(); ++i) large.rgb[i] = static_cast<float>(i % 1000) * 0.003f;
-  for (const char* name : {"srgb", "gt", "aces"}) {
+  for (const std::string_view own : kOwnViews) {
+    const std::string name(own);
     const Shower shower(View{.name = name}.scene_view());
     const DisplayPicture all = shower.show(large);
     const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
