@@ -19,7 +19,7 @@ namespace {
 struct Request {
   Options options;
   std::string out;
-  bool csv = false;
+  bool csv = false, markdown = false;
 };
 
 int run(const Request& request) {
@@ -45,7 +45,7 @@ int run(const Request& request) {
     return 130;
   }
   if (on_terminal) std::fprintf(stderr, "\r\033[K");
-  std::cout << (request.csv ? csv_of(study) : table_of(study));
+  std::cout << (request.csv ? csv_of(study) : request.markdown ? markdown_of(study) : table_of(study));
   if (csv) {
     csv->append(csv_of(study)), csv->commit();
     page->append(page_of(study)), page->commit();
@@ -84,7 +84,8 @@ CLI::App& add_cost(CLI::App& program, int& exit_code) {
       ->add_option("--draws", request->options.draws_scale, "Times the number of inputs that errors are taken over")
       ->check(CLI::Range(1e-3, 1e3))
       ->capture_default_str();
-  evaluators->add_flag("--csv", request->csv, "Print CSV instead of tables");
+  CLI::Option* csv = evaluators->add_flag("--csv", request->csv, "Print CSV instead of tables");
+  evaluators->add_flag("--markdown", request->markdown, "Print Markdown instead")->excludes(csv);
   evaluators->add_option("--out", request->out, "Folder for evaluators.html and evaluators.csv");
   evaluators->callback([request, &exit_code] { exit_code = run(*request); });
   return *cost;

@@ -56,6 +56,8 @@ Study run_study(const Options& options, const std::function<void(const std::stri
 
 // One line for each form and precision.
 std::string csv_of(const Study& study);
+// A Markdown table for each family, as docs/cost.md has them.
+std::string markdown_of(const Study& study);
 // For the terminal.
 std::string table_of(const Study& study);
 // One self-contained HTML page with a plot for each family.

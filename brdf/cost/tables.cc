@@ -22,6 +22,34 @@ std::string cell(const std::string& text) {
   return out + "\"";
 }
 
+std::string percent(double share) {
+  if (std::isnan(share)) return "";
+  char text[32];
+  std::snprintf(text, sizeof text, "%+.2g %%", 100 * share);
+  return text;
+}
+
+// The order of docs/cost.md: what a renderer pays first; errors are those in double.
+std::string markdown_of(const FamilyResult& result) {
+  const bool has_energy = bool(result.family.energy_weight);
+  std::string out =
+      "<!-- table: " + result.family.name + " -->\n| form | batch, ns | float, ns | double, ns | RMS error | worst |";
+  out += (has_energy ? " " + result.family.energy_name + " |" : "") +
+         std::string("\n| --- | --- | --- | --- | --- | --- |");
+  out += std::string(has_energy ? " --- |" : "") + "\n";
+  for (std::size_t i = 0; i < result.cells.size(); ++i) {
+    const auto& c = result.cells[i];
+    out += "| " + result.family.rungs[i].label;
+    for (const std::size_t p : {std::size_t(2), std::size_t(1), std::size_t(0)})
+      out +=
+          " | " + (c[p].one_by_one ? "one by one" : digits(c[p].timing.ns) + (c[p].dominated_by.empty() ? "" : "\\*"));
+    out += " | " + digits(c[0].accuracy.rms) + " | " + digits(c[0].accuracy.worst);
+    if (has_energy) out += " | " + percent(c[0].accuracy.energy);
+    out += " |\n";
+  }
+  return out + "<!-- end -->\n";
+}
+
 // Code points, not bytes, are what a terminal shows.
 std::size_t shown_width(const std::string& text) {
   return std::size_t(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xc0) != 0x80; }));
@@ -102,6 +130,12 @@ std::string table_of(const Study& study) {
   return out +
          "\nErrors and spread are those of the batches. * another form is faster and no less exact. 'one by one': the "
          "evaluator\nhas branches and no form for batches.\n";
+}
+
+std::string markdown_of(const Study& study) {
+  std::string out;
+  for (const FamilyResult& result : study.families) out += (out.empty() ? "" : "\n") + markdown_of(result);
+  return out;
 }
 
 }  // namespace likeness::cost

@@ -73,6 +73,18 @@ TEST(CostCsv, SaysOneByOneInPlaceOfATime) {
   EXPECT_EQ(cells[5], "");
 }
 
+TEST(CostMarkdown, HasARowForEachFormWithTheBatchesFirst) {
+  const auto lines = lines_of(markdown_of(test::toy_study()));
+  ASSERT_EQ(lines.size(), 2u + 2 + 5);
+  EXPECT_EQ(lines.front(), "<!-- table: toys -->");
+  EXPECT_EQ(lines.back(), "<!-- end -->");
+  for (std::size_t i = 1; i + 1 < lines.size(); ++i)
+    EXPECT_EQ(std::count(lines[i].begin(), lines[i].end(), '|'), std::count(lines[1].begin(), lines[1].end(), '|'));
+  EXPECT_THAT(lines[3], HasSubstr("| cheap, rough | "));
+  EXPECT_THAT(lines[3], HasSubstr("| 10 | 0.2 |")) << "double, and its error";
+  EXPECT_THAT(lines[6], HasSubstr("one by one"));
+}
+
 TEST(CostTable, KeepsItsColumnsApart) {
   Study study = test::toy_study();
   study.families[0].family.energy_name = "a very long name of an energy";
