@@ -7,6 +7,8 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "render/image/layers.h"
 #include "render/image/picture.h"
@@ -34,6 +36,7 @@ struct Rendered {
   std::uint32_t samples = 0, samples_before = 0;
   double relative_error = 0;  // infinity: not known
   std::uint64_t rejected = 0;
+  std::vector<std::pair<std::string_view, std::string_view>> settings{};  // name and level of each, if it has any
   bool is_interrupted = false;
   std::function<image::Layers(const std::string& key)> state{};  // of an interrupted render that can go on
 };

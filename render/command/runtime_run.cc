@@ -12,6 +12,8 @@ Rendered render_runtime(const Job& job) {
   out.layers.width = picture.width, out.layers.height = picture.height;
   out.layers.layers.push_back({"", {"R", "G", "B"}, picture.rgb});
   out.samples = static_cast<std::uint32_t>(job.settings.pixel_samples);
+  for (const runtime::SettingRow& row : runtime::kSettings)
+    out.settings.emplace_back(row.name, row.levels[row.level_of(job.settings)]);
   out.relative_error = std::numeric_limits<double>::infinity();
   return out;
 }

@@ -52,6 +52,7 @@ std::string metadata_of(const std::string& file, const scene::Scene& scene, cons
   out["samples"] = rendered.samples;
   out["seed"] = options.seed;
   out["bounces"] = options.max_bounces;
+  for (const auto& [name, level] : rendered.settings) out["settings"][std::string(name)] = level;
   out["finished"] = !rendered.is_interrupted;
   out["relative_error"] = number_or_null(rendered.relative_error);
   out["rejected_samples"] = rendered.rejected;

@@ -113,6 +113,20 @@ TEST_F(RenderCommand, WritesIntoTheExrWhatDoesNotChangeFromRunToRun) {
   EXPECT_TRUE(shop.content("ball.exr") == first) << "the same command makes the same bytes";
 }
 
+TEST_F(RenderCommand, StatesTheLevelOfEverySettingOfAFrame) {
+  const Json plain = Json::parse(shop.run({"render", "ball.json", "--integrator", "runtime", "--json"}).out);
+  const Json settings = plain.at("settings");
+  for (const char* name : {"pixel_samples", "light_samples", "environment"})
+    EXPECT_TRUE(settings.contains(name)) << name;
+  EXPECT_EQ(Json::parse(layers().metadata).at("settings"), settings);
+  EXPECT_EQ(settings.at("pixel_samples"), "1");
+  shop.write("better.json", R"({"format": "likeness quality", "version": 1, "settings": {"pixel_samples": 4}})");
+  const Ran better = shop.run({"render", "ball.json", "--integrator", "runtime", "--quality", "better.json", "--json"});
+  ASSERT_EQ(better.exit_code, 0) << better.error;
+  EXPECT_EQ(Json::parse(better.out).at("settings").at("pixel_samples"), "4");
+  EXPECT_FALSE(json().contains("settings")) << "the path tracer has none";
+}
+
 TEST_F(RenderCommand, DoesNotDependOnThreads) {
   render({"--threads", "1"});
   const std::string one = shop.content("ball.exr");
