@@ -80,8 +80,8 @@ struct Frame {
   double black = 0, white = 1;  // values of the decoded file that stand for no light and for 1
   double clip = 1;              // at and above it [after black and white] the sensor was full; infinity: never
   double gain = 1;              // linear pixels are multiplied by it (for exposures that differ)
-  std::optional<double> exposure_s, iso, f_number;
-  std::string sha256;  // of the file; empty: not taken
+  std::optional<double> exposure_s{}, iso{}, f_number{};
+  std::string sha256{};  // of the file; empty: not taken
 };
 
 // Layers that belong to a camera's picture and to no light.

@@ -20,7 +20,7 @@ namespace {
 
 using files::InputError;
 
-constexpr const char* kFormats = "EXR, PNG, JPEG, TIFF, TGA, HDR, PFM, PNM, BMP, WebP, DDS, PSD";
+constexpr const char* kFormats = "EXR, PNG, JPEG, TIFF, TGA, HDR, PFM, PNM, BMP, WebP, DDS, PSD, DNG";
 
 struct Signature {
   std::string_view bytes;
@@ -50,10 +50,27 @@ bool is_tga(std::string_view bytes, const std::string& name) {
   return extension == "tga" || bytes.ends_with(std::string_view("TRUEVISION-XFILE.\0", 18));
 }
 
+// Whether a TIFF is camera raw: its first directory has the tag DNGVersion (Adobe, DNG 1.7, chapter 4).
+bool is_dng(std::string_view bytes) {
+  const bool is_little = bytes.starts_with("II");
+  const auto number = [&](std::size_t at, std::size_t size) {
+    std::size_t out = 0;
+    for (std::size_t i = 0; i < size && at + size <= bytes.size(); ++i)
+      out = out << 8 | static_cast<unsigned char>(bytes[is_little ? at + size - 1 - i : at + i]);
+    return out;
+  };
+  const std::size_t directory = number(4, 4);
+  if (directory + 2 > bytes.size()) return false;
+  constexpr std::size_t kRow = 12, kDngVersion = 50706;
+  for (std::size_t i = 0, count = number(directory, 2); i < count; ++i)
+    if (number(directory + 2 + kRow * i, 2) == kDngVersion) return true;
+  return false;
+}
+
 // OpenImageIO's name of the format; null if it is none that is read.
 const char* format_of(std::string_view bytes, const std::string& name) {
   for (const Signature& s : kSignatures)
-    if (bytes.starts_with(s.bytes)) return s.format;
+    if (bytes.starts_with(s.bytes)) return std::string_view(s.format) == "tiff" && is_dng(bytes) ? "raw" : s.format;
   if (bytes.starts_with("RIFF") && bytes.size() > 12 && bytes.substr(8, 4) == "WEBP") return "webp";
   if (bytes.size() > 3 && bytes[0] == 'P' && bytes[1] >= '1' && bytes[1] <= '6' &&
       std::isspace(static_cast<unsigned char>(bytes[2])))
