@@ -1,0 +1,153 @@
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <string_view>
+
+#include "olat/pair/picture.h"
+#include "render/capture/pixels.h"
+#include "render/files/files.h"
+
+namespace likeness::olat_pair {
+namespace {
+
+using capture::kAbsent;
+
+template <class List>
+std::size_t position(std::string_view what, const std::string& id, const List& list) {
+  if (list.empty()) return kAbsent;
+  if (id.empty()) return 0;
+  std::vector<std::string_view> ids;
+  for (const auto& item : list) ids.push_back(item.id);
+  const auto at = std::find(ids.begin(), ids.end(), id);
+  if (at != ids.end()) return static_cast<std::size_t>(at - ids.begin());
+  const std::string near = files::nearest_name(id, ids.data(), ids.size());
+  throw files::UsageError(
+      "state: the capture has no " + std::string(what) + " " + files::in_quotes(id) +
+      (near.empty() ? " (it has " + std::to_string(ids.size()) + ", the first is " + files::in_quotes(ids.front()) + ")"
+                    : "; did you mean " + near + "?"));
+}
+
+float luminance(const float* rgb) { return 0.2126f * rgb[0] + 0.7152f * rgb[1] + 0.0722f * rgb[2]; }
+
+// Of the pairs (r, p): see match_gain.
+double robust_slope(const std::vector<float>& r, const std::vector<float>& p) {
+  double rr = 0, rp = 0;
+  for (std::size_t i = 0; i < r.size(); ++i)
+    rr += static_cast<double>(r[i]) * r[i], rp += static_cast<double>(r[i]) * p[i];
+  if (!(rr > 0)) return 1;
+  double gain = rp / rr;
+  std::vector<float> residual(r.size()), sorted;
+  constexpr int kRounds = 20;
+  constexpr double kHuber = 1.345, kSigmaOfMad = 1.4826;
+  for (int round = 0; round < kRounds; ++round) {
+    for (std::size_t i = 0; i < r.size(); ++i) residual[i] = std::abs(p[i] - static_cast<float>(gain) * r[i]);
+    sorted = residual;
+    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+    std::nth_element(sorted.begin(), middle, sorted.end());
+    const double limit = kHuber * kSigmaOfMad * static_cast<double>(*middle);
+    if (!(limit > 0)) break;  // half of the pixels agree exactly
+    rr = rp = 0;
+    for (std::size_t i = 0; i < r.size(); ++i) {
+      const double w = std::min(1.0, limit / std::max(static_cast<double>(residual[i]), 1e-30)) * r[i];
+      rr += w * r[i];
+      rp += w * p[i];
+    }
+    if (!(rr > 0)) break;
+    const double next = rp / rr, step = std::abs(next - gain);
+    gain = next;
+    if (step < 1e-7 * std::abs(gain)) break;
+  }
+  return gain > 0 ? gain : 1;
+}
+
+}  // namespace
+
+Place place_of(const capture::Capture& capture, const State& state) {
+  if (capture.cameras.empty() || capture.lights.empty())
+    throw files::UsageError("the capture has no " + std::string(capture.cameras.empty() ? "cameras" : "lights"));
+  return {position("camera", state.camera, capture.cameras), position("light", state.light, capture.lights),
+          position("variant", state.variant, capture.variants)};
+}
+
+namespace {
+
+Pair read_pair(const capture::Capture& capture, const Place& place) {
+  Pair pair;
+  const std::size_t frame = capture::FrameTable(capture).frame(place.camera, place.light);
+  if (frame != kAbsent && std::filesystem::exists(capture::photo_file(capture, capture.frames[frame]))) {
+    capture::Photo photo = capture::read_photo(capture, frame);
+    pair.photo = std::move(photo.light);
+    pair.flaws = std::move(photo.flaws);
+  }
+  if (place.variant != kAbsent) {
+    const capture::Variant& variant = capture.variants[place.variant];
+    const auto file = capture::render_file(capture, variant, place.camera, place.light);
+    if (std::filesystem::exists(file)) pair.render = capture::read_render(capture, variant, place.camera, place.light);
+  }
+  if (pair.photo.width > 0 && pair.render.width > 0 &&
+      (pair.photo.width != pair.render.width || pair.photo.height != pair.render.height))
+    throw files::InputError("camera " + files::in_quotes(capture.cameras[place.camera].id) + ", light " +
+                            files::in_quotes(capture.lights[place.light].id) + ": the photo is " +
+                            std::to_string(pair.photo.width) + " x " + std::to_string(pair.photo.height) +
+                            ", the render " + std::to_string(pair.render.width) + " x " +
+                            std::to_string(pair.render.height));
+  const std::size_t count = static_cast<std::size_t>(pair.width()) * static_cast<std::size_t>(pair.height());
+  if (pair.flaws.size() != count) pair.flaws.assign(count, 0);
+  if (place.camera < capture.noise_floor.size()) {
+    const glm::dvec3 n = capture.noise_floor[place.camera];
+    const float rgb[] = {static_cast<float>(n.x), static_cast<float>(n.y), static_cast<float>(n.z)};
+    if (luminance(rgb) > 0) pair.noise = luminance(rgb);
+  }
+  return pair;
+}
+
+}  // namespace
+
+std::array<double, 3> match_gain(const Pair& pair, bool by_channel) {
+  std::array<std::vector<float>, 3> r, p;
+  if (pair.photo.rgb.size() != pair.render.rgb.size()) return {1, 1, 1};
+  // A million pixels say as much as all of them.
+  const std::size_t step = 1 + pair.flaws.size() / 1'000'000;
+  for (std::size_t i = 0; i < pair.flaws.size(); i += step) {
+    if (pair.flaws[i] != 0) continue;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const float from = pair.render.rgb[3 * i + c], to = pair.photo.rgb[3 * i + c];
+      if (!std::isfinite(from) || !std::isfinite(to) || !(from > 0)) continue;
+      r[by_channel ? c : 0].push_back(from);
+      p[by_channel ? c : 0].push_back(to);
+    }
+  }
+  if (by_channel) return {robust_slope(r[0], p[0]), robust_slope(r[1], p[1]), robust_slope(r[2], p[2])};
+  const double gain = robust_slope(r[0], p[0]);
+  return {gain, gain, gain};
+}
+
+std::array<double, 3> gain_of(const capture::Capture& capture, const State& state, const Pair& pair) {
+  if (state.match == Match::kNone || pair.render.width == 0 || pair.photo.width == 0) return {1, 1, 1};
+  if (state.match != Match::kCapture) return match_gain(pair, state.match == Match::kChannel);
+
+  constexpr std::size_t kMostPairs = 16;
+  const Place place = place_of(capture, state);
+  const std::size_t all = capture.cameras.size() * capture.lights.size(), count = std::min(all, kMostPairs);
+  std::vector<double> gains;
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::size_t at = k * all / count;
+    const Pair other = read_pair(capture, {at / capture.lights.size(), at % capture.lights.size(), place.variant});
+    if (other.photo.width > 0 && other.render.width > 0) gains.push_back(match_gain(other, false)[0]);
+  }
+  if (gains.empty()) return {1, 1, 1};
+  const auto middle = gains.begin() + static_cast<std::ptrdiff_t>(gains.size() / 2);
+  std::nth_element(gains.begin(), middle, gains.end());
+  return {*middle, *middle, *middle};
+}
+
+Pair load_pair(const capture::Capture& capture, const State& state) {
+  Pair pair = read_pair(capture, place_of(capture, state));
+  const std::array<double, 3> gain = gain_of(capture, state, pair);
+  for (std::size_t c = 0; c < 3; ++c) pair.gain[c] = static_cast<float>(gain[c]);
+  pair.flip_exposures = {capture.flip_first_ev, capture.flip_last_ev};
+  if (state.noise > 0) pair.noise = static_cast<float>(state.noise);
+  return pair;
+}
+
+}  // namespace likeness::olat_pair
