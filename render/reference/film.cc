@@ -5,7 +5,10 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <string_view>
+
+#include <tbb/parallel_for.h>
 
 #include "render/files/files.h"
 
@@ -80,12 +83,21 @@ bool of_pieces(const std::array<float, 3>& pieces, double& x) {
   return x >= 0 && std::isfinite(x);
 }
 
+// Of rows of pixels, in the order of rows whichever thread sums one: the same bits on any number of them.
+template <class SumOfRow>
+double sum_of_rows(std::size_t rows, SumOfRow&& sum_of_row) {
+  std::vector<double> sums(rows);
+  tbb::parallel_for(std::size_t{0}, rows, [&](std::size_t y) { sums[y] = sum_of_row(y); });
+  return std::accumulate(sums.begin(), sums.end(), 0.0);
+}
+
 }  // namespace
 
 Film::Film(int width, int height, bool has_layers) : width_(width), height_(height) {
   const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-  counts_.resize(pixels), rejected_.resize(pixels), sums_.resize(3 * pixels), squares_.resize(3 * pixels);
-  if (has_layers) layers_.resize(kLayerFloats * pixels);
+  counts_ = image::Plane<std::uint32_t>(pixels), rejected_ = image::Plane<std::uint32_t>(pixels);
+  sums_ = image::Plane<double>(3 * pixels), squares_ = image::Plane<double>(3 * pixels);
+  if (has_layers) layers_ = image::Plane<float>(kLayerFloats * pixels);
 }
 
 void Film::add(std::size_t pixel, const glm::vec3& radiance, const First* first) {
@@ -117,25 +129,40 @@ std::uint64_t Film::rejected() const {
 
 image::Picture Film::picture() const {
   image::Picture out(width_, height_);
-  for (std::size_t i = 0; i < out.rgb.size(); ++i)
-    out.rgb[i] = static_cast<float>(sums_[i] / std::max(counts_[i / 3], 1u));
+  tbb::parallel_for(std::size_t{0}, counts_.size(), [&](std::size_t pixel) {
+    const double n = std::max(counts_[pixel], 1u);
+    for (std::size_t i = 3 * pixel; i < 3 * pixel + 3; ++i) out.rgb[i] = static_cast<float>(sums_[i] / n);
+  });
   return out;
 }
 
 double Film::relative_error() const {
-  double mean = 0;
-  for (std::size_t i = 0; i < sums_.size(); ++i) {
-    if (counts_[i / 3] < 2) return std::numeric_limits<double>::infinity();
-    mean += sums_[i] / counts_[i / 3];
-  }
-  mean /= static_cast<double>(sums_.size());
+  const std::size_t rows = static_cast<std::size_t>(height_), width = static_cast<std::size_t>(width_);
+  const auto values = static_cast<double>(sums_.size());
+  const double mean = sum_of_rows(rows,
+                                  [&](std::size_t y) {
+                                    double sum = 0;
+                                    for (std::size_t pixel = y * width; pixel < (y + 1) * width; ++pixel) {
+                                      if (counts_[pixel] < 2) return std::numeric_limits<double>::infinity();
+                                      for (std::size_t i = 3 * pixel; i < 3 * pixel + 3; ++i)
+                                        sum += sums_[i] / counts_[pixel];
+                                    }
+                                    return sum;
+                                  }) /
+                      values;
+  if (!std::isfinite(mean)) return mean;
   if (!(mean > 0)) return 0;
-  double error = 0;
-  for (std::size_t i = 0; i < sums_.size(); ++i) {
-    const double n = counts_[i / 3], m = sums_[i] / n;
-    error += std::max(squares_[i] / n - m * m, 0.0) / (n - 1) / (m * m + 0.01 * mean * mean);
-  }
-  return error / static_cast<double>(sums_.size());
+  return sum_of_rows(rows,
+                     [&](std::size_t y) {
+                       double sum = 0;
+                       for (std::size_t pixel = y * width; pixel < (y + 1) * width; ++pixel)
+                         for (std::size_t i = 3 * pixel; i < 3 * pixel + 3; ++i) {
+                           const double n = counts_[pixel], m = sums_[i] / n;
+                           sum += std::max(squares_[i] / n - m * m, 0.0) / (n - 1) / (m * m + 0.01 * mean * mean);
+                         }
+                       return sum;
+                     }) /
+         values;
 }
 
 image::Layers Film::layers() const {
@@ -143,12 +170,12 @@ image::Layers Film::layers() const {
   out.layers.push_back({"", {"R", "G", "B"}, picture().rgb});
   image::Layer variance{"variance", {"R", "G", "B"}, std::vector<float>(sums_.size())};
   constexpr double kMost = std::numeric_limits<float>::max();
-  for (std::size_t i = 0; i < sums_.size(); ++i) {
+  tbb::parallel_for(std::size_t{0}, sums_.size(), [&](std::size_t i) {
     const double n = counts_[i / 3], m = n > 0 ? sums_[i] / n : 0;
     // That of samples near the largest float has none: the picture is finite, and so is this.
     variance.data[i] = n > 1 ? static_cast<float>(std::min(std::max(squares_[i] / n - m * m, 0.0) / (n - 1), kMost))
                              : std::numeric_limits<float>::infinity();
-  }
+  });
   out.layers.push_back(std::move(variance));
   if (layers_.empty()) return out;
   std::size_t first = 0;
@@ -166,7 +193,7 @@ image::Layers Film::layers() const {
 
 image::Layers Film::state(const std::string& key) const {
   image::Layers out{width_, height_, {}, std::string(kFormat) + key};
-  const auto exactly = [&](const char* name, const std::vector<double>& values) {
+  const auto exactly = [&](const char* name, const image::Plane<double>& values) {
     image::Layer layer{name, {kPieces.begin(), kPieces.end()}, {}};
     layer.data.reserve(3 * values.size());
     for (const double x : values)
@@ -181,7 +208,7 @@ image::Layers Film::state(const std::string& key) const {
   }
   out.layers.push_back(std::move(counts));
   if (layers_.empty()) return out;
-  image::Layer means{"means", {}, layers_};
+  image::Layer means{"means", {}, {layers_.begin(), layers_.end()}};
   for (std::size_t k = 0; k < kLayerFloats; ++k) means.channels.push_back("c" + std::to_string(100 + k));
   out.layers.push_back(std::move(means));
   return out;
@@ -208,7 +235,7 @@ Film Film::of_state(const image::Layers& state, const std::string& key, const st
   const auto damaged = [&](const char* which) {
     return files::InputError(name + ": the layer \"" + which + "\" is damaged (delete it to start anew)");
   };
-  const auto read = [&](const char* which, std::vector<double>& values) {
+  const auto read = [&](const char* which, image::Plane<double>& values) {
     const image::Layer& l = layer(which, kPieces.size());
     std::array<std::size_t, kPieces.size()> at{};
     for (std::size_t k = 0; k < at.size(); ++k) {
@@ -231,7 +258,10 @@ Film Film::of_state(const image::Layers& state, const std::string& key, const st
         !number_of(counts.data[2 * p + r], 1u << 24, film.rejected_[p]))
       throw damaged("count");
   }
-  if (means != nullptr) film.layers_ = layer("means", kLayerFloats).data;
+  if (means != nullptr) {
+    const image::Layer& kept = layer("means", kLayerFloats);
+    std::copy(kept.data.begin(), kept.data.end(), film.layers_.begin());
+  }
   return film;
 }
 

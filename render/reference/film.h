@@ -9,6 +9,7 @@
 
 #include "render/image/layers.h"
 #include "render/image/picture.h"
+#include "render/image/plane.h"
 #include "render/reference/path.h"
 
 namespace likeness::reference {
@@ -49,9 +50,9 @@ class Film {
 
  private:
   int width_ = 0, height_ = 0;
-  std::vector<std::uint32_t> counts_, rejected_;
-  std::vector<double> sums_, squares_;  // 3 for each pixel
-  std::vector<float> layers_;           // means, kLayerFloats for each pixel
+  image::Plane<std::uint32_t> counts_, rejected_;
+  image::Plane<double> sums_, squares_;  // 3 for each pixel
+  image::Plane<float> layers_;           // means, kLayerFloats for each pixel
 };
 
 }  // namespace likeness::reference

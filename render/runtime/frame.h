@@ -10,6 +10,7 @@
 #include <glm/vec3.hpp>
 
 #include "render/image/picture.h"
+#include "render/image/plane.h"
 #include "render/scene/scene.h"
 
 // What the passes of a frame read and write.
@@ -53,8 +54,9 @@ struct Tile {
 
 struct Frame {
   int width = 0, height = 0;
-  std::vector<Cell> cells;
-  std::vector<DualCell> dual_cells;  // empty without dual normals
+  // Not Cell's defaults before the visibility pass, which writes all of them.
+  image::Plane<Cell> cells;
+  image::Plane<DualCell> dual_cells;  // empty without dual normals
   std::vector<Tile> tiles;
   std::vector<scene::Index> lights;
   image::Picture radiance;

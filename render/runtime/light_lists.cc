@@ -85,9 +85,8 @@ Pass light_list_pass(const plan::Plan&) {
             const std::size_t all = c.world.lights.count() - (c.world.lights.samples_environment() ? 1 : 0);
             const auto stride = static_cast<std::uint32_t>(all);
             c.frame.lights.resize(c.frame.tiles.size() * all);
-            for (std::size_t i = 0; i < c.frame.tiles.size(); ++i)
-              c.frame.tiles[i].first_light = static_cast<std::uint32_t>(i) * stride;
             for_tiles(c.frame, true, [&](Tile& tile) {
+              tile.first_light = static_cast<std::uint32_t>(&tile - c.frame.tiles.data()) * stride;
               tile.lights = 0;
               for (std::size_t i = 0; i < all; ++i)
                 if (i >= lights.size() || may_reach(tile, lights[i]))

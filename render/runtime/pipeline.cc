@@ -68,22 +68,36 @@ std::string complaint(const std::vector<Pass>& passes) {
 }
 
 Pipeline::Pipeline(const world::World& world) : world_(world) {}
+Pipeline::~Pipeline() = default;
+
+// The buffers of a frame of this size, but its picture: those of one that is done, or new ones.
+std::unique_ptr<Frame> Pipeline::idle_frame(const world::Camera& camera) const {
+  std::unique_ptr<Frame> frame;
+  {
+    const std::scoped_lock lock(idle_mutex_);
+    if (!idle_.empty()) frame = std::move(idle_.back()), idle_.pop_back();
+  }
+  if (frame && frame->width == camera.width() && frame->height == camera.height()) return frame;
+  frame = std::make_unique<Frame>();
+  frame->width = camera.width(), frame->height = camera.height();
+  const auto pixels = static_cast<std::size_t>(frame->width) * static_cast<std::size_t>(frame->height);
+  frame->cells = image::Plane<Cell>(pixels);
+  if (world_.plan.has(plan::Effect::kDualNormals)) frame->dual_cells = image::Plane<DualCell>(pixels);
+  for (int y = 0; y < frame->height; y += kTileHeight)
+    for (int x = 0; x < frame->width; x += kTileWidth) {
+      Tile tile;
+      tile.x = x, tile.y = y;
+      tile.width = std::min(kTileWidth, frame->width - x), tile.height = std::min(kTileHeight, frame->height - y);
+      frame->tiles.push_back(tile);
+    }
+  return frame;
+}
 
 image::Picture Pipeline::frame(std::size_t index, const Settings& settings, int threads,
                                std::vector<PassTime>* times) const {
   const world::Camera camera(world_.scene.cameras[index]);
-  Frame frame;
-  frame.width = camera.width(), frame.height = camera.height();
-  frame.radiance = image::Picture(frame.width, frame.height);
-  frame.cells.resize(frame.radiance.rgb.size() / 3);
-  if (world_.plan.has(plan::Effect::kDualNormals)) frame.dual_cells.resize(frame.cells.size());
-  for (int y = 0; y < frame.height; y += kTileHeight)
-    for (int x = 0; x < frame.width; x += kTileWidth) {
-      Tile tile;
-      tile.x = x, tile.y = y;
-      tile.width = std::min(kTileWidth, frame.width - x), tile.height = std::min(kTileHeight, frame.height - y);
-      frame.tiles.push_back(tile);
-    }
+  std::unique_ptr<Frame> frame = idle_frame(camera);
+  frame->radiance = image::Picture(frame->width, frame->height);
   if (world_.lights.environment() && settings.environment == EnvironmentLevel::kMaps)
     std::call_once(maps_made_, [&] { maps_ = EnvironmentMaps(*world_.lights.environment()); });
   const std::vector<Pass> passes = passes_of(world_.plan, settings);
@@ -92,7 +106,7 @@ image::Picture Pipeline::frame(std::size_t index, const Settings& settings, int 
     for (const Pass& pass : passes) times->push_back({pass.name});
   }
   tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
-  Context context{world_, camera, settings, maps_, frame};
+  Context context{world_, camera, settings, maps_, *frame};
   for (; context.sample < static_cast<std::uint32_t>(settings.pixel_samples); ++context.sample)
     for (std::size_t i = 0; i < passes.size(); ++i) {
       const double wall_start = wall(), cpu_start = cpu();
@@ -100,7 +114,10 @@ image::Picture Pipeline::frame(std::size_t index, const Settings& settings, int 
       if (times == nullptr) continue;
       (*times)[i].seconds += wall() - wall_start, (*times)[i].cpu_seconds += cpu() - cpu_start;
     }
-  return std::move(frame.radiance);
+  image::Picture picture = std::move(frame->radiance);
+  const std::scoped_lock lock(idle_mutex_);
+  idle_.push_back(std::move(frame));
+  return picture;
 }
 
 }  // namespace likeness::runtime

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <mutex>
 #include <string>
 #include <string_view>
@@ -29,11 +30,13 @@ struct PassTime {
 };
 
 // A scene that frames are made of: holds what is made once, by the first frame that reads it (the maps of the
-// environment).
+// environment), and the buffers of frames from one to the next (about 55 bytes a pixel, for each frame that was made at
+// the same time as another).
 class Pipeline {
  public:
   // Keeps the world, which must outlive it.
   explicit Pipeline(const world::World& world);
+  ~Pipeline();
 
   // One frame of a camera: radiance [W/(m^2 sr)]. `threads` 0: one a core. `times` takes the passes' times if it is not
   // null.
@@ -41,9 +44,13 @@ class Pipeline {
                        std::vector<PassTime>* times = nullptr) const;
 
  private:
+  std::unique_ptr<Frame> idle_frame(const world::Camera& camera) const;
+
   const world::World& world_;
   mutable std::once_flag maps_made_;
   mutable EnvironmentMaps maps_;
+  mutable std::mutex idle_mutex_;
+  mutable std::vector<std::unique_ptr<Frame>> idle_;
 };
 
 }  // namespace likeness::runtime
