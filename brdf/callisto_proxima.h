@@ -5,6 +5,28 @@
 
 namespace likeness::brdf {
 
+// Parts of Callisto over microfacets of an alpha of their own, which need not be that of its lobes: a surface whose bumps
+// are too small to be seen has Lambert's diffuse at alpha 0, and Proxima's as they vanish. Same contract as below.
+template <unsigned kParts, Scalar S, Scalar T>
+Rgb<S> callisto_over_proxima(const Callisto<S>& model, const Geometry<T>& g, const S& alpha) {
+  const S factor = proxima_factor(alpha, g.cos_i, proxima_turn(g));
+  return model.template combined<kParts>(g.above, model.template terms<kParts>(g),
+                                         S(factor * constant<S>(std::numbers::inv_pi)));
+}
+// Callisto's lobes, the diffuse one split as Proxima's is. Needs kDiffuse among the parts.
+template <unsigned kParts, Scalar S>
+auto callisto_over_proxima_lobes(const Callisto<S>& model, const Vec3<S>& to_view, const S& alpha) {
+  static_assert((kParts & Callisto<S>::kDiffuse) != 0);
+  const auto plain = model.template lobes<kParts>(to_view);
+  const S cosine = plain.share(0) * (S(1) - constant<S>(0.55) * alpha),
+          rest = plain.share(0) * constant<S>(0.38) * alpha;
+  const GgxLobe<S> first(alpha_of_roughness(model.roughness));
+  if constexpr ((kParts & Callisto<S>::kSecondLobe) != 0)
+    return Mixture<S, CosineLobe<S>, HemisphereLobe<S>, GgxLobe<S>, GgxLobe<S>>(
+        {cosine, rest, plain.share(1), plain.share(2)}, {}, {}, first, GgxLobe<S>(model.second_alpha()));
+  else return Mixture<S, CosineLobe<S>, HemisphereLobe<S>, GgxLobe<S>>({cosine, rest, plain.share(1)}, {}, {}, first);
+}
+
 // The Callisto BRDF over a surface of GGX microfacets: Lambert is replaced by Proxima, everything else is Callisto's.
 //
 //     f(l, v) = (c1 f_proxima + f_ggx) c2                       [1/sr], cosine not included
@@ -29,8 +51,7 @@ struct CallistoProxima : Callisto<S> {
 
   template <Scalar T>
   Rgb<S> eval(const Geometry<T>& g) const {
-    const S factor = proxima_factor(alpha_of_roughness(this->roughness), g.cos_i, proxima_turn(g));
-    return this->combined(g.above, this->terms(g), S(factor * constant<S>(std::numbers::inv_pi)));
+    return callisto_over_proxima<Callisto<S>::kAllParts>(*this, g, alpha_of_roughness(this->roughness));
   }
   // f cos_i, [1/sr]: Proxima is not divided by the cosine.
   template <Scalar T>
@@ -45,14 +66,8 @@ struct CallistoProxima : Callisto<S> {
     return eval_cos(Geometry<S>(to_light, to_view));
   }
 
-  // Callisto's lobes, the diffuse one split as Proxima's is.
-  Mixture<S, CosineLobe<S>, HemisphereLobe<S>, GgxLobe<S>, GgxLobe<S>> lobes(const Vec3<S>& to_view) const {
-    const auto plain = Callisto<S>::lobes(to_view);
-    const S alpha = alpha_of_roughness(this->roughness), diffuse = plain.share(0);
-    return Mixture<S, CosineLobe<S>, HemisphereLobe<S>, GgxLobe<S>, GgxLobe<S>>(
-        {diffuse * (S(1) - constant<S>(0.55) * alpha), diffuse * constant<S>(0.38) * alpha, plain.share(1),
-         plain.share(2)},
-        {}, {}, GgxLobe<S>(alpha), GgxLobe<S>(this->second_alpha()));
+  auto lobes(const Vec3<S>& to_view) const {
+    return callisto_over_proxima_lobes<Callisto<S>::kAllParts>(*this, to_view, alpha_of_roughness(this->roughness));
   }
   Sample<S> sample(const Vec3<S>& to_view, const S& choice, const S& u, const S& v) const {
     return sample_lobes(*this, to_view, choice, u, v);

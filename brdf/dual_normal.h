@@ -36,6 +36,7 @@ Geometry<T> geometry_about(const Vec3<T>& normal, const Vec3<T>& to_light, const
 //
 //     c1 rho / pi c2 cos_i (about the diffuse normal) + f_ggx c2 cos_i (about the specular normal)
 //
+// shape      of the diffuse: Lambert's 1 / pi, or what stands in its place (proxima_factor(..) / pi about `diffuse`).
 // diffuse, specular   the same directions about either normal: geometry_about(normal, to_light, to_view), or
 //                     Geometry(to_light, to_view) for the frame's own.
 // Source      Jimenez and Petersen, "The Rendering of The Callisto Protocol", SIGGRAPH 2023 Advances ('Dual normal'),
@@ -45,7 +46,8 @@ Geometry<T> geometry_about(const Vec3<T>& normal, const Vec3<T>& to_light, const
 //             step that is left is the surface's own (z = 0), where the surface hides what is behind it. Never negative.
 // Does not    know of a geometry under the two normals: what the diffuse reflects is not shaded by the specular's bumps.
 template <Scalar S, Scalar T>
-Rgb<S> dual_normal(const Callisto<S>& model, const Geometry<T>& diffuse, const Geometry<T>& specular) {
+Rgb<S> dual_normal(const Callisto<S>& model, const Geometry<T>& diffuse, const Geometry<T>& specular,
+                   const S& shape = constant<S>(std::numbers::inv_pi)) {
   typename Callisto<S>::template Terms<S> below, above;
   model.diffuse_terms(diffuse, below);
   model.shade_term(diffuse, below);
@@ -53,7 +55,6 @@ Rgb<S> dual_normal(const Callisto<S>& model, const Geometry<T>& diffuse, const G
   model.shade_term(specular, above);
   const T cos_below = pick(diffuse.above, diffuse.cos_i, T(0)), cos_above = pick(specular.above, specular.cos_i, T(0));
   return model.for_channels([&](const S& rho, const S& rho_f, const S& rho_r, const S& o) {
-    const S shape = constant<S>(std::numbers::inv_pi);
     const S scattered = Callisto<S>::diffuse_part(below, model.metallic, rho, rho_f, rho_r, shape);
     const S mirrored = Callisto<S>::specular_part(above, model.metallic, model.specular, rho);
     return S(scattered * mix(S(1), below.shade, o) * cos_below + mirrored * mix(S(1), above.shade, o) * cos_above);

@@ -34,6 +34,7 @@ void make_ggx_sphere(const SceneOptions& options, SceneFiles& files);
 void make_plastic_sphere(const SceneOptions& options, SceneFiles& files);
 void make_teeth(const SceneOptions& options, SceneFiles& files);
 void make_eye(const SceneOptions& options, SceneFiles& files);
+void make_distance(const SceneOptions& options, SceneFiles& files);
 void make_torture(const SceneOptions& options, SceneFiles& files);
 
 // clang-format off
@@ -45,6 +46,7 @@ inline constexpr std::array kSceneKinds{
     SceneKind{"plastic_sphere", "a plastic sphere in a constant environment", make_plastic_sphere, 256, 256},
     SceneKind{"teeth", "two rows of rounded, wet teeth in their gums", make_teeth, 768, 512},
     SceneKind{"eye", "an eye: cornea, iris and veins, and normals for its diffuse light alone", make_eye, 512, 512},
+    SceneKind{"distance", "bumpy spheres and a tiled floor into the distance, where pixels cover many texels", make_distance, 768, 432},
     SceneKind{"torture", "what breaks renderers: grazing planes, mirrors, needles, the huge and the tiny, holes, NaN", make_torture, 640, 480},
 };
 // clang-format on

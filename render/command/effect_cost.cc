@@ -9,6 +9,7 @@
 #include "render/files/interrupt.h"
 #include "render/plan/without.h"
 #include "render/reference/reference.h"
+#include "render/runtime/pipeline.h"
 #include "render/world/world.h"
 
 namespace likeness::render_command {
@@ -31,15 +32,17 @@ double quantile(std::vector<double> values, double share) {
 class Subject {
  public:
   Subject(const scene::Scene& scene, std::size_t camera)
-      : world_(scene, plan::plan_of(scene, camera)), camera_(scene.cameras[camera]), index_(camera) {}
+      : world_(scene, plan::plan_of(scene, camera)),
+        pipeline_(world_),
+        camera_(scene.cameras[camera]),
+        index_(camera) {}
 
-  // CPU milliseconds for a million samples.
-  double read(std::uint32_t samples) const {
-    reference::Options options;
-    options.camera = index_, options.samples = samples, options.threads = 1;  // all on this thread, whose clock is read
-    reference::Film film(camera_.width, camera_.height, false);
+  // CPU milliseconds for a million samples: of the path tracer, or of frames of one point a pixel.
+  double read(std::uint32_t samples, bool is_of_frames = false) const {
     const double start = thread_seconds();
-    reference::render(world_, options, film, [](const reference::Progress&) { return !files::interrupted(); });
+    if (is_of_frames)
+      for (std::uint32_t i = 0; i < samples && !files::interrupted(); ++i) pipeline_.frame(index_, {}, 1);
+    else trace(samples);
     const double took = thread_seconds() - start;
     if (files::interrupted()) throw files::Interrupted{};
     return 1e9 * took / (static_cast<double>(samples) * camera_.width * camera_.height);
@@ -47,7 +50,15 @@ class Subject {
   double pixels() const { return static_cast<double>(camera_.width) * camera_.height; }
 
  private:
+  void trace(std::uint32_t samples) const {
+    reference::Options options;
+    options.camera = index_, options.samples = samples, options.threads = 1;  // all on this thread, whose clock is read
+    reference::Film film(camera_.width, camera_.height, false);
+    reference::render(world_, options, film, [](const reference::Progress&) { return !files::interrupted(); });
+  }
+
   world::World world_;
+  runtime::Pipeline pipeline_;
   scene::Camera camera_;
   std::size_t index_;
 };
@@ -75,13 +86,15 @@ plan::Costs costs_of(const scene::Scene& original, const CostOptions& options,
   for (std::size_t i = 0; i < on.size(); ++i) {
     const scene::Scene edited = plan::without(scene, on[i]);
     const Subject without(edited, options.camera);
-    without.read(1);
+    const bool of_frames = plan::row_of(on[i]).is_of_frames;
+    if (of_frames) with.read(1, true);  // makes what later frames read
+    without.read(1, of_frames);
     std::vector<double> a, b, differences;
     for (int repeat = 0; repeat < options.repeats; ++repeat) {
       // Which comes first changes, so that neither always finds the other's caches.
-      if (repeat % 2 == 0) a.push_back(with.read(samples));
-      b.push_back(without.read(samples));
-      if (repeat % 2 == 1) a.push_back(with.read(samples));
+      if (repeat % 2 == 0) a.push_back(with.read(samples, of_frames));
+      b.push_back(without.read(samples, of_frames));
+      if (repeat % 2 == 1) a.push_back(with.read(samples, of_frames));
       differences.push_back(a.back() - b.back());
       if (progress)
         progress(std::string(plan::row_of(on[i]).name),

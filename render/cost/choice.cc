@@ -17,9 +17,10 @@ std::string name_of(const Study& study, const Row& row) {
   std::string out;
   for (std::size_t i = 0; i < kSettingCount; ++i) {
     if (!study.matters[i]) continue;
-    const std::string level(runtime::kSettings[i].levels[row.levels[i]]);
+    const runtime::SettingRow& setting = runtime::kSettings[i];
+    const std::string level(setting.levels[row.levels[i]]), label(setting.label);
     out += out.empty() ? "" : ", ";
-    out += i == kPixelSamples ? level + " pts" : i == kLightSamples ? level + " shadow" : "env " + level;
+    out += std::to_string(setting.work(row.levels[i])) == level ? level + " " + label : label + " " + level;
   }
   return out;
 }
@@ -93,7 +94,9 @@ Levels best_within(const TimeModel& model, const bool (&matters)[kSettingCount],
   while (model.predict(levels) > longest_ms) {
     std::size_t highest = kSettingCount;
     for (std::size_t i = 0; i < kSettingCount; ++i)
-      if (matters[i] && levels[i] > 0 && (highest == kSettingCount || levels[i] >= levels[highest])) highest = i;
+      if (matters[i] && levels[i] > 0 && runtime::kSettings[i].work(levels[i]) > 0 &&
+          (highest == kSettingCount || levels[i] >= levels[highest]))
+        highest = i;
     if (highest == kSettingCount) break;
     --levels[highest];
   }

@@ -168,8 +168,8 @@ class Measurement {
       return r.cpu_ms;
     };
     frame(study_.cheapest, picture);  // fills caches, wakes threads
-    for (const std::size_t s : {kLightSamples, kEnvironment}) {
-      if (!study_.matters[s]) continue;
+    for (std::size_t s = 0; s < kSettingCount; ++s) {
+      if (s == kPixelSamples || !study_.matters[s]) continue;
       Levels levels = study_.cheapest;
       for (; levels[s] < runtime::kSettings[s].levels.size(); ++levels[s])
         if (!goes_on_("calibration", 0) || one(levels) > options_.longest_ms / 16) break;

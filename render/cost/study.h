@@ -122,7 +122,7 @@ struct Candidate {
 std::vector<Candidate> promising(std::vector<Candidate> all, std::size_t few, double slack);
 
 // The highest level of all settings that matter within a time: the highest of them is lowered (the later setting first)
-// until a frame is predicted to take no more.
+// until a frame is predicted to take no more. Levels that are no numbers of rays stay at their best.
 Levels best_within(const TimeModel& model, const bool (&matters)[kSettingCount], double longest_ms);
 
 std::string table_of(const Study& study);

@@ -13,16 +13,13 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 // The setting on whose level the cost of a pass for a point depends.
 std::size_t setting_of(std::string_view pass) {
-  if (pass == "direct") return kLightSamples;
-  if (pass == "environment") return kEnvironment;
+  for (std::size_t i = 0; i < kSettingCount; ++i)
+    if (runtime::kSettings[i].pass == pass) return i;
   return kSettingCount;
 }
 
 // Rays for each point at a level; 0 where there are none to count (maps).
-double rays_of(std::size_t setting, std::size_t level) {
-  if (setting == kEnvironment) return level == 0 ? 0 : static_cast<double>(1 << (2 * (level - 1)));
-  return static_cast<double>(1 << (2 * level));
-}
+double rays_of(std::size_t setting, std::size_t level) { return runtime::kSettings[setting].work(level); }
 
 double points_of(const Levels& levels) { return rays_of(kPixelSamples, levels[kPixelSamples]); }
 
@@ -112,9 +109,19 @@ std::vector<double> fit_non_negative(const std::vector<std::vector<double>>& row
 namespace {
 
 std::vector<double> error_terms(const Levels& levels) {
-  const double points = points_of(levels), rays = rays_of(kEnvironment, levels[kEnvironment]);
-  return {1, rays > 0 ? 0.0 : 1.0, 1 / points, 1 / (points * rays_of(kLightSamples, levels[kLightSamples])),
-          rays > 0 ? 1 / (points * rays) : 0.0};
+  const double points = points_of(levels);
+  std::vector<double> terms{1, 1 / points};
+  for (std::size_t i = 0; i < kSettingCount; ++i) {
+    if (i == kPixelSamples) continue;
+    const std::size_t count = runtime::kSettings[i].levels.size();
+    for (std::size_t level = 0; level + 1 < count; ++level)
+      if (rays_of(i, level) == 0) terms.push_back(levels[i] == level ? 1 : 0);
+    if (rays_of(i, count - 1) > 0) {
+      const double rays = rays_of(i, levels[i]);
+      terms.push_back(rays > 0 ? 1 / (points * rays) : 0);
+    }
+  }
+  return terms;
 }
 
 }  // namespace
@@ -125,7 +132,7 @@ ErrorModel::ErrorModel(std::span<const Measured> measured) {
   for (const Measured& m : measured)
     if (m.relmse > 0) rows.push_back(error_terms(m.levels)), values.push_back(m.relmse);
   factors_ = fit_non_negative(rows, values);
-  factors_.resize(5, 0);
+  factors_.resize(error_terms({}).size(), 0);
 }
 
 double ErrorModel::predict(const Levels& levels) const {

@@ -10,7 +10,7 @@
 
 // What a frame will take, from the passes of frames that were measured:
 //
-//   time = frame + pixel_samples x (visibility + light lists + direct(light_samples) + environment(level))
+//   time = frame + pixel_samples x (sum of its passes, each at the level of the setting that runtime::kSettings ties to it)
 //
 // A frame of one point a pixel looks through their middles, at neighbors that are more alike: its passes are a tenth
 // cheaper, and are kept apart.
@@ -65,8 +65,9 @@ class TimeModel {
 // divided by its value (relative errors). Values above 0.
 std::vector<double> fit_non_negative(const std::vector<std::vector<double>>& rows, const std::vector<double>& values);
 
-// relMSE as it falls with the numbers of rays: floor + maps + (pixels + lights / light_samples + sky / rays) /
-// pixel_samples, each factor fitted to what was measured. Says only which combinations are worth a measurement.
+// relMSE as it falls with the numbers of rays: floor + a fault for each level that is no number of rays + (pixels + lights
+// / light_samples + sky / rays) / pixel_samples, each factor fitted to what was measured. Says only which combinations are
+// worth a measurement.
 class ErrorModel {
  public:
   struct Measured {

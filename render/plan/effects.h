@@ -16,7 +16,9 @@ enum class Effect : std::size_t {
   kSecondLobe,
   kOtherModels,
   kTextures,
+  kTextureLevels,
   kNormalMaps,
+  kProxima,
   kDualNormals,
   kCutOuts,
   kEmission,
@@ -36,6 +38,8 @@ struct EffectRow {
   std::string_view name;
   std::string_view text;   // what it is
   std::string_view saves;  // what is not done without it
+  // The path tracer does nothing for it, whose samples look at points: it tells what a pixel sees by taking many.
+  bool is_of_frames = false;
 };
 
 // clang-format off
@@ -48,7 +52,9 @@ inline constexpr std::array<EffectRow, kEffectCount> kEffects{{
     {Effect::kSecondLobe, "second_lobe", "a second specular lobe", "half of the specular's work, and a lobe to sample"},
     {Effect::kOtherModels, "other_models", "materials of other models than Callisto", "their kernels"},
     {Effect::kTextures, "textures", "parameters that vary over a surface", "a copy of the material and its look-ups at every hit"},
+    {Effect::kTextureLevels, "texture_levels", "textures of which a pixel may cover more than a texel (run-time frames)", "levels of the textures, and a footprint for each pixel", true},
     {Effect::kNormalMaps, "normal_maps", "normals from a picture", "tangents and a look-up at every hit"},
+    {Effect::kProxima, "proxima", "the diffuse of bumps that are too small to be seen (run-time frames)", "kernels with Proxima in the place of Lambert, far away", true},
     {Effect::kDualNormals, "dual_normals", "one normal for the diffuse, one for the specular", "a second frame, and all terms of c1 and c2 twice"},
     {Effect::kCutOuts, "cut_outs", "surfaces with holes, by an opacity texture", "a question for every candidate that a ray meets"},
     {Effect::kEmission, "emission", "surfaces that shine", "lists of their triangles, and weights where they are met"},

@@ -56,6 +56,35 @@ std::string fact_of(const C& model, const scene::Material& material, unsigned pa
   }
 }
 
+std::string texels_of(const scene::Scene& scene, const std::optional<scene::Texture>& texture, std::string_view name) {
+  if (!texture) return {};
+  const image::Texels& texels = scene.images[texture->image].texels;
+  if (texels.width <= 1 && texels.height <= 1) return {};
+  return std::string(name) + " has " + std::to_string(texels.width) + " x " + std::to_string(texels.height) + " texels";
+}
+
+// The first of a material's textures that looks otherwise from afar: one texel is the same everywhere. An opacity is not
+// read by pixels but by rays.
+std::string texels_of(const scene::Scene& scene, const scene::Material& material) {
+  for (const scene::Material::Binding& binding : material.bindings) {
+    const std::string name = std::visit(
+        [&]<class M>(const M&) { return std::string(M::kParameters[binding.parameter].name); }, material.brdf);
+    if (std::string fact = texels_of(scene, binding.texture, name); !fact.empty()) return fact;
+  }
+  for (const auto& [texture, name] : {std::pair{&material.normal_map, "normal_map"},
+                                      {&material.diffuse_normal_map, "diffuse_normal_map"},
+                                      {&material.emission_map, "emission_map"}})
+    if (std::string fact = texels_of(scene, *texture, name); !fact.empty()) return fact;
+  return {};
+}
+
+// The map of bumps below a diffuse of Callisto's.
+std::string bumps_of(const scene::Scene& scene, const scene::Material& material, const MaterialPlan& plan) {
+  if ((plan.callisto_parts & C::kDiffuse) == 0) return {};
+  return plan.has_dual_normals ? texels_of(scene, material.diffuse_normal_map, "diffuse_normal_map")
+                               : texels_of(scene, material.normal_map, "normal_map");
+}
+
 void materials(const scene::Scene& scene, Plan& plan, Facts& facts) {
   std::vector<bool> is_used(scene.materials.size(), false);
   for (const scene::Instance& instance : scene.instances) is_used[instance.material] = true;
@@ -96,7 +125,11 @@ void materials(const scene::Scene& scene, Plan& plan, Facts& facts) {
                                           },
                                           material.brdf) +
                                       " has a texture");
+    if (const std::string texels = texels_of(scene, material); !texels.empty())
+      facts.on(Effect::kTextureLevels, who + texels);
     if (own.has_normal_map) facts.on(Effect::kNormalMaps, who + "normal_map");
+    if (const std::string bumps = bumps_of(scene, material, own); !bumps.empty())
+      facts.on(Effect::kProxima, who + bumps);
     if (own.has_dual_normals) facts.on(Effect::kDualNormals, who + "diffuse_normal_map");
     if (own.is_cut_out) facts.on(Effect::kCutOuts, who + "opacity");
     if (own.emits) facts.on(Effect::kEmission, who + "emission");
@@ -150,8 +183,12 @@ std::string nothing(Effect effect) {
       return "every material is Callisto";
     case Effect::kTextures:
       return "no parameter has a texture";
+    case Effect::kTextureLevels:
+      return "no texture of more than one texel";
     case Effect::kNormalMaps:
       return "no material has a normal_map";
+    case Effect::kProxima:
+      return "no map of normals below a diffuse";
     case Effect::kDualNormals:
       return "no material has a diffuse_normal_map";
     case Effect::kCutOuts:

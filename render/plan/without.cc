@@ -1,6 +1,7 @@
 #include "render/plan/without.h"
 
 #include <algorithm>
+#include <cmath>
 #include <initializer_list>
 #include <string_view>
 #include <tuple>
@@ -57,6 +58,23 @@ void to_callisto(const M& model, scene::Material& material) {
   material.brdf = callisto;
 }
 
+// Gives a texture a picture of one texel, the mean of the numbers in its own.
+void to_one_texel(scene::Scene& scene, scene::Texture& texture) {
+  const image::Texels& from = scene.images[texture.image].texels;
+  scene::Image one{scene.images[texture.image].name, {1, 1, from.channels, {}, {}}};
+  const auto mean = [&](const auto& values, std::size_t channel) {
+    double sum = 0;
+    for (std::size_t i = channel; i < values.size(); i += static_cast<std::size_t>(from.channels))
+      if (std::isfinite(static_cast<double>(values[i]))) sum += static_cast<double>(values[i]);
+    return sum / static_cast<double>(from.count());
+  };
+  for (std::size_t k = 0; k < static_cast<std::size_t>(from.channels); ++k)
+    if (from.floats.empty()) one.texels.bytes.push_back(static_cast<std::uint8_t>(mean(from.bytes, k)));
+    else one.texels.floats.push_back(static_cast<float>(mean(from.floats, k)));
+  texture.image = static_cast<scene::Index>(scene.images.size());
+  scene.images.push_back(std::move(one));
+}
+
 template <class... Shapes>
 void drop_lights(scene::Scene& scene) {
   std::erase_if(scene.lights,
@@ -96,8 +114,20 @@ scene::Scene without(const scene::Scene& original, Effect effect) {
     case Effect::kTextures:
       for (scene::Material& material : scene.materials) material.bindings.clear();
       break;
+    case Effect::kTextureLevels:
+      for (scene::Material& material : scene.materials) {
+        for (scene::Material::Binding& binding : material.bindings) to_one_texel(scene, binding.texture);
+        for (auto* map : {&material.normal_map, &material.diffuse_normal_map, &material.emission_map})
+          if (*map) to_one_texel(scene, **map);
+      }
+      break;
     case Effect::kNormalMaps:
       for (scene::Material& material : scene.materials) material.normal_map.reset();
+      break;
+    case Effect::kProxima:
+      for (scene::Material& material : scene.materials)
+        if (auto& map = material.diffuse_normal_map ? material.diffuse_normal_map : material.normal_map)
+          to_one_texel(scene, *map);
       break;
     case Effect::kDualNormals:
       for (scene::Material& material : scene.materials) material.diffuse_normal_map.reset();

@@ -4,6 +4,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "brdf/proxima.h"
 #include "render/ray/offset.h"
 #include "render/runtime/pass.h"
 #include "render/sampling/heuristic.h"
@@ -45,7 +46,8 @@ glm::vec3 by_rays(const Context& c, const surface::Point& point, std::size_t pix
   return sum / static_cast<float>(rays);
 }
 
-// Callisto by the maps: its diffuse as Lambert's, its lobes with Schlick's Fresnel, neither shaped nor shaded.
+// Callisto by the maps: its diffuse as Lambert's (or Proxima's over bumps, as if light and view were less than 90 degrees
+// apart, where it is linear in the light's cosine), its lobes with Schlick's Fresnel, neither shaped nor shaded.
 glm::vec3 by_maps(const Context& c, const surface::Point& point) {
   const C& m = *static_cast<const C*>(point.bound.model);
   const glm::vec3 rho(m.base_color.r, m.base_color.g, m.base_color.b);
@@ -65,7 +67,13 @@ glm::vec3 by_maps(const Context& c, const surface::Point& point) {
   if (m.dual_specular_opacity > 0)
     specular = glm::mix(specular, lobe(std::min(m.roughness * m.dual_specular_roughness_scale, 1.0f)),
                         m.dual_specular_opacity);
-  return rho * ((1 - m.metallic) * 0.31830989f) * c.maps.irradiance(diffuse_normal) + specular;
+  glm::vec3 diffuse = c.maps.irradiance(diffuse_normal);
+  if (const float bumps = point.bound.bumps; bumps > 0) {
+    const float even = brdf::proxima_factor_cos(bumps, 0.0f, 1.0f),
+                cosine = brdf::proxima_factor_cos(bumps, 1.0f, 1.0f) - even;
+    diffuse = cosine * diffuse + even * c.maps.hemisphere(diffuse_normal);
+  }
+  return rho * ((1 - m.metallic) * 0.31830989f) * diffuse + specular;
 }
 
 constexpr int rays_of(EnvironmentLevel level) {

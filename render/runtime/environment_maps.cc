@@ -54,6 +54,12 @@ T between(const T* grid, int width, int height, float u, float v, bool wraps) {
                   glm::mix(grid[y1 * width + x0], grid[y1 * width + x1], x - left), y - top);
 }
 
+glm::vec3 at(const std::array<brdf::Sh<float>, 3>& channels, const glm::vec3& normal) {
+  const brdf::Vec3<float> n(normal);
+  // Bands above the second are left out: a light that is small and strong makes the sum negative on its far side.
+  return glm::max(glm::vec3(channels[0].eval(n), channels[1].eval(n), channels[2].eval(n)), glm::vec3(0));
+}
+
 }  // namespace
 
 EnvironmentMaps::EnvironmentMaps(const light::Environment& environment) : environment_(&environment) {
@@ -84,7 +90,11 @@ EnvironmentMaps::EnvironmentMaps(const light::Environment& environment) : enviro
     const brdf::Vec3<float> d(s.direction);
     for (std::size_t k = 0; k < 3; ++k) irradiance_[k].add(d, s.radiance[static_cast<int>(k)] * s.solid_angle);
   }
-  for (auto& channel : irradiance_) channel = channel.convolved_with_cosine();
+  for (std::size_t k = 0; k < 3; ++k) {
+    // Half the sphere by bands: 2 pi, pi, 0.
+    for (std::size_t i = 0; i < 4; ++i) hemisphere_[k].c[i] = irradiance_[k].c[i] * kPi * (i == 0 ? 2.0f : 1.0f);
+    irradiance_[k] = irradiance_[k].convolved_with_cosine();
+  }
 
   for (std::size_t level = 0; level < kRoughness.size(); ++level) {
     const float alpha = brdf::alpha_of_roughness(kRoughness[level]);
@@ -111,11 +121,8 @@ EnvironmentMaps::EnvironmentMaps(const light::Environment& environment) : enviro
   }
 }
 
-glm::vec3 EnvironmentMaps::irradiance(const glm::vec3& normal) const {
-  const brdf::Vec3<float> n(normal);
-  // Bands above the second are left out: a light that is small and strong makes the sum negative on its far side.
-  return glm::max(glm::vec3(irradiance_[0].eval(n), irradiance_[1].eval(n), irradiance_[2].eval(n)), glm::vec3(0));
-}
+glm::vec3 EnvironmentMaps::irradiance(const glm::vec3& normal) const { return at(irradiance_, normal); }
+glm::vec3 EnvironmentMaps::hemisphere(const glm::vec3& normal) const { return at(hemisphere_, normal); }
 
 glm::vec3 EnvironmentMaps::radiance(const glm::vec3& direction, float roughness) const {
   const glm::vec2 place = environment_->place_of(direction);

@@ -22,6 +22,8 @@ class EnvironmentMaps {
 
   // Irradiance on a surface with this normal [W/m^2].
   glm::vec3 irradiance(const glm::vec3& normal) const;
+  // Integral of the radiance over the hemisphere about it, without the cosine [W/m^2].
+  glm::vec3 hemisphere(const glm::vec3& normal) const;
   // Radiance about a direction, blurred by the lobe of a roughness [W/(m^2 sr)].
   glm::vec3 radiance(const glm::vec3& direction, float roughness) const;
   // (a, b): a GGX lobe with Schlick's Fresnel returns f0 a + b of white light to a view.
@@ -32,7 +34,7 @@ class EnvironmentMaps {
   static constexpr std::array kRoughness{0.25f, 0.4f, 0.55f, 0.7f, 0.85f, 1.0f};
 
   const light::Environment* environment_ = nullptr;
-  std::array<brdf::Sh<float>, 3> irradiance_;
+  std::array<brdf::Sh<float>, 3> irradiance_, hemisphere_;
   std::array<std::vector<glm::vec3>, kRoughness.size()> blurred_;
 };
 

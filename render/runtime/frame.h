@@ -20,14 +20,21 @@ namespace likeness::runtime {
 inline constexpr int kTileWidth = 8, kTileHeight = 4, kTilePixels = kTileWidth * kTileHeight;
 
 enum class Buffer : std::uint8_t {
+  kHits,        // Frame::hits: what each camera ray met
   kSurfaces,    // Frame::cells: what each pixel shows
+  kParameters,  // Frame::parameters: what textures say there
   kTiles,       // Frame::tiles: what each tile contains, and where
   kLightLists,  // Frame::lights: the lights that may reach each tile
   kRadiance,    // Frame::radiance: linear light
   kCount
 };
-inline constexpr std::string_view kBufferNames[]{"surfaces", "tiles", "light lists", "radiance"};
+inline constexpr std::string_view kBufferNames[]{"hits", "surfaces", "parameters", "tiles", "light lists", "radiance"};
 
+// What a camera ray met; written where it is a surface.
+struct HitCell {
+  float distance = 0, u = 0, v = 0;  // as in ray::Hit
+  scene::Index instance = scene::kNone, triangle = 0;
+};
 // What a pixel shows.
 struct Cell {
   glm::vec3 position{0, 0, 0};
@@ -57,6 +64,10 @@ struct Frame {
   // Not Cell's defaults before the visibility pass, which writes all of them.
   image::Plane<Cell> cells;
   image::Plane<DualCell> dual_cells;  // empty without dual normals
+  // Empty without textures. For each pixel parameter_stride numbers: Bound::bumps, then those of Prepared::varying.
+  std::vector<HitCell> hits;
+  std::vector<float> parameters;
+  std::size_t parameter_stride = 0;
   std::vector<Tile> tiles;
   std::vector<scene::Index> lights;
   image::Picture radiance;

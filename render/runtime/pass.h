@@ -18,6 +18,7 @@ struct Context {
   const world::Camera& camera;
   const Settings& settings;
   const EnvironmentMaps& maps;
+  const surface::SceneLevels* levels;  // null: textures are read at full size
   Frame& frame;
   std::uint32_t sample = 0;  // of the pixel, 0 to settings.pixel_samples - 1
 };
@@ -29,13 +30,20 @@ struct Pass {
   std::function<void(Context&)> run;
 };
 
+// Whether surfaces have textures, and so a pass that reads them.
+bool has_textures(const plan::Plan& plan);
+
 Pass visibility_pass(const plan::Plan& plan);
+Pass texture_pass(const plan::Plan& plan);
 Pass light_list_pass(const plan::Plan& plan);
 Pass direct_pass(const plan::Plan& plan);
 Pass environment_pass(const plan::Plan& plan, const Settings& settings);
 
 // Calls `work` for every tile that shows a surface, or for all; on all threads.
 void for_tiles(Frame& frame, bool only_surfaces, const std::function<void(Tile&)>& work);
+
+// The ray through a pixel for the sample that is worked on.
+ray::Ray camera_ray(const Context& context, int x, int y);
 
 // The point that a cell stands for, as the kernels take it. point.bound may point into `point`.
 void restore(const Context& context, std::size_t pixel, const glm::vec3& camera_position, surface::Point& point);

@@ -4,7 +4,6 @@
 #include <chrono>
 #include <ctime>
 
-#include <glm/geometric.hpp>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -29,24 +28,10 @@ void for_tiles(Frame& frame, bool only_surfaces, const std::function<void(Tile&)
                     });
 }
 
-void restore(const Context& context, std::size_t pixel, const glm::vec3& camera_position, surface::Point& point) {
-  const Cell& cell = context.frame.cells[pixel];
-  const surface::Prepared& material = context.world.materials[cell.material];
-  point.position = cell.position, point.normal = cell.normal, point.shading_normal = cell.shading_normal;
-  point.uv = cell.uv, point.material = &material, point.is_back = false;
-  point.frame = ray::Frame(cell.shading_normal);
-  point.to_view = point.frame.local(glm::normalize(camera_position - cell.position));
-  point.bound.model = material.model_at(cell.uv, point.scratch);
-  point.bound.diffuse_normal = point.bound.specular_normal = {0, 0, 1};
-  if (material.has_dual_normals()) {
-    point.bound.diffuse_normal = context.frame.dual_cells[pixel].diffuse_normal;
-    point.bound.specular_normal = context.frame.dual_cells[pixel].specular_normal;
-  }
-}
-
 std::vector<Pass> passes_of(const plan::Plan& plan, const Settings& settings) {
   using plan::Effect;
   std::vector<Pass> passes{visibility_pass(plan)};
+  if (has_textures(plan)) passes.push_back(texture_pass(plan));
   if (plan.has(Effect::kPointLights) || plan.has(Effect::kAreaLights) || plan.has(Effect::kEmission)) {
     passes.push_back(light_list_pass(plan));
     passes.push_back(direct_pass(plan));
@@ -100,13 +85,15 @@ image::Picture Pipeline::frame(std::size_t index, const Settings& settings, int 
   frame->radiance = image::Picture(frame->width, frame->height);
   if (world_.lights.environment() && settings.environment == EnvironmentLevel::kMaps)
     std::call_once(maps_made_, [&] { maps_ = EnvironmentMaps(*world_.lights.environment()); });
+  const bool has_levels = world_.plan.has(plan::Effect::kTextureLevels) && settings.textures != texture::Filter::kFull;
+  if (has_levels) std::call_once(levels_made_, [&] { levels_.emplace(world_.materials); });
   const std::vector<Pass> passes = passes_of(world_.plan, settings);
   if (times != nullptr) {
     times->clear();
     for (const Pass& pass : passes) times->push_back({pass.name});
   }
   tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
-  Context context{world_, camera, settings, maps_, *frame};
+  Context context{world_, camera, settings, maps_, has_levels ? &*levels_ : nullptr, *frame};
   for (; context.sample < static_cast<std::uint32_t>(settings.pixel_samples); ++context.sample)
     for (std::size_t i = 0; i < passes.size(); ++i) {
       const double wall_start = wall(), cpu_start = cpu();

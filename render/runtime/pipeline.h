@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -30,7 +31,7 @@ struct PassTime {
 };
 
 // A scene that frames are made of: holds what is made once, by the first frame that reads it (the maps of the
-// environment), and the buffers of frames from one to the next (about 55 bytes a pixel, for each frame that was made at
+// environment, the levels of textures), and the buffers of frames from one to the next (about 55 bytes a pixel, for each frame that was made at
 // the same time as another).
 class Pipeline {
  public:
@@ -49,6 +50,8 @@ class Pipeline {
   const world::World& world_;
   mutable std::once_flag maps_made_;
   mutable EnvironmentMaps maps_;
+  mutable std::once_flag levels_made_;
+  mutable std::optional<surface::SceneLevels> levels_;
   mutable std::mutex idle_mutex_;
   mutable std::vector<std::unique_ptr<Frame>> idle_;
 };

@@ -12,24 +12,14 @@ namespace {
 
 constexpr int kMostLightsPassed = 64;
 
-template <surface::Detail kDetail>
-void show(Context& c, Tile& tile, bool has_dual_normals) {
+void show(Context& c, Tile& tile, bool has_textures) {
   const world::World& world = c.world;
   const std::size_t instances = world.scene.instances.size();
   std::array<ray::Ray, kTilePixels> rays;
   std::array<ray::Hit, kTilePixels> hits;
   std::size_t count = 0;
   for (int y = tile.y; y < tile.y + tile.height; ++y)
-    for (int x = tile.x; x < tile.x + tile.width; ++x) {
-      glm::vec2 in_pixel(0.5f), on_lens(0.5f);
-      if (c.settings.pixel_samples > 1 || c.camera.has_lens()) {
-        sampling::Samples samples(static_cast<std::uint32_t>(c.frame.pixel(x, y)), c.sample, c.settings.seed);
-        const glm::vec2 u = samples.next(), v = samples.next();
-        if (c.settings.pixel_samples > 1) in_pixel = u;
-        on_lens = v;
-      }
-      rays[count++] = c.camera.ray(glm::vec2(x, y) + in_pixel, on_lens);
-    }
+    for (int x = tile.x; x < tile.x + tile.width; ++x) rays[count++] = camera_ray(c, x, y);
   world.tracer.closest(std::span(rays).first(count), std::span(hits).first(count));
 
   surface::Point point;
@@ -59,12 +49,12 @@ void show(Context& c, Tile& tile, bool has_dual_normals) {
       Cell& cell = c.frame.cells[pixel];
       cell = {};
       if (hit.is_some() && hit.surface < instances) {
-        world.surfaces.at<kDetail>(ray, hit, point);
-        radiance += world.surfaces.emission(point);
+        world.surfaces.at<surface::Detail::kNone>(ray, hit, point);
+        if (!has_textures || point.material->emission_map == nullptr) radiance += world.surfaces.emission(point);
+        if (has_textures) c.frame.hits[pixel] = {hit.distance, hit.u, hit.v, hit.surface, hit.triangle};
         if (!point.is_black()) {
-          cell = {point.position, point.normal, point.has_dual_frame() ? point.frame.z : point.shading_normal, point.uv,
+          cell = {point.position, point.normal, point.shading_normal, point.uv,
                   world.scene.instances[hit.surface].material};
-          if (has_dual_normals) c.frame.dual_cells[pixel] = {point.bound.diffuse_normal, point.bound.specular_normal};
           tile.low = glm::min(tile.low, cell.position), tile.high = glm::max(tile.high, cell.position);
           normals += cell.normal;
           kept[static_cast<std::size_t>(tile.surfaces++)] = cell.normal;
@@ -85,20 +75,29 @@ void show(Context& c, Tile& tile, bool has_dual_normals) {
 
 }  // namespace
 
+ray::Ray camera_ray(const Context& c, int x, int y) {
+  glm::vec2 in_pixel(0.5f), on_lens(0.5f);
+  if (c.settings.pixel_samples > 1 || c.camera.has_lens()) {
+    sampling::Samples samples(static_cast<std::uint32_t>(c.frame.pixel(x, y)), c.sample, c.settings.seed);
+    const glm::vec2 u = samples.next(), v = samples.next();
+    if (c.settings.pixel_samples > 1) in_pixel = u;
+    on_lens = v;
+  }
+  return c.camera.ray(glm::vec2(x, y) + in_pixel, on_lens);
+}
+
 Pass visibility_pass(const plan::Plan& plan) {
-  using plan::Effect;
-  const bool has_dual_normals = plan.has(Effect::kDualNormals);
-  const bool has_textures = plan.has(Effect::kTextures) || plan.has(Effect::kNormalMaps) || has_dual_normals;
-  return {"visibility",
-          "camera rays in packets; what each pixel shows, and what each tile contains",
-          {},
-          {Buffer::kSurfaces, Buffer::kTiles, Buffer::kRadiance},
-          [=](Context& c) {
-            for_tiles(c.frame, false, [&](Tile& tile) {
-              if (has_textures) show<surface::Detail::kTextures>(c, tile, has_dual_normals);
-              else show<surface::Detail::kNone>(c, tile, false);
-            });
-          }};
+  const bool is_textured = has_textures(plan);
+  Pass pass{"visibility",
+            "camera rays in packets; what each pixel shows, and what each tile contains",
+            {},
+            {Buffer::kSurfaces, Buffer::kTiles, Buffer::kRadiance},
+            [=](Context& c) {
+              if (is_textured) c.frame.hits.resize(c.frame.cells.size());
+              for_tiles(c.frame, false, [&](Tile& tile) { show(c, tile, is_textured); });
+            }};
+  if (is_textured) pass.writes.push_back(Buffer::kHits);
+  return pass;
 }
 
 }  // namespace likeness::runtime

@@ -1,6 +1,8 @@
+#include <numbers>
 #include <utility>
 
 #include "brdf/dual_normal.h"
+#include "brdf/proxima.h"
 #include "render/surface/kernel_of_model.h"
 
 namespace likeness::surface {
@@ -19,7 +21,8 @@ constexpr std::array<Kernel, sizeof...(P)> kernels_for(std::integer_sequence<uns
 }
 constexpr auto kKernels = kernels_for(std::make_integer_sequence<unsigned, C::kAllParts + 1>{});
 
-// ---- dual normals: the whole of the model; the frame is that of the surface.
+// ---- dual normals: the whole of the model, with Proxima of Bound::bumps, which is Lambert where there are none; the frame
+// is that of the surface.
 
 struct Pairs {
   brdf::Geometry<float> diffuse, specular;
@@ -27,6 +30,12 @@ struct Pairs {
   Pairs(const Bound& bound, const brdf::Vec3<float>& light, const brdf::Vec3<float>& view)
       : diffuse(brdf::geometry_about(brdf::Vec3<float>(bound.diffuse_normal), light, view)),
         specular(brdf::geometry_about(brdf::Vec3<float>(bound.specular_normal), light, view)) {}
+
+  glm::vec3 f_cos(const C& model, float bumps) const {
+    const float shape =
+        std::numbers::inv_pi_v<float> * brdf::proxima_factor(bumps, diffuse.cos_i, brdf::proxima_turn(diffuse));
+    return to_glm(brdf::dual_normal(model, diffuse, specular, shape));
+  }
 };
 
 // A frame about a normal, and a view in it that is above its horizon.
@@ -54,7 +63,7 @@ struct About {
 struct DualLobes {
   const C& model;
   About diffuse, specular;
-  float diffuse_share;
+  float diffuse_share, cosine_share;  // the latter: of the diffuse one's samples
   brdf::GgxLobe<float> first, second;
 
   DualLobes(const Bound& bound, const glm::vec3& to_view)
@@ -62,18 +71,25 @@ struct DualLobes {
         diffuse(bound.diffuse_normal, to_view),
         specular(bound.specular_normal, to_view),
         diffuse_share(model.lobes(diffuse.view).share(0)),
+        cosine_share(bound.bumps > 0 ? brdf::Proxima<float>{.alpha = bound.bumps}.lobes(diffuse.view).share(0) : 1),
         first(brdf::alpha_of_roughness(model.roughness)),
         second(model.second_alpha()) {}
 
   glm::vec3 light(float choice, const glm::vec2& u) const {
-    if (choice < diffuse_share) return diffuse.out(brdf::CosineLobe<float>{}.light(diffuse.view, u.x, u.y));
+    if (choice < diffuse_share * cosine_share)
+      return diffuse.out(brdf::CosineLobe<float>{}.light(diffuse.view, u.x, u.y));
+    if (choice < diffuse_share) return diffuse.out(brdf::HemisphereLobe<float>{}.light(diffuse.view, u.x, u.y));
     const bool takes_first = choice - diffuse_share < (1 - diffuse_share) * (1 - model.dual_specular_opacity);
     return specular.out((takes_first ? first : second).light(specular.view, u.x, u.y));
   }
   float density(const glm::vec3& to_light) const {
     const brdf::Vec3<float> below = diffuse.local(to_light), above = specular.local(to_light);
     float sum = 0;
-    if (below.z > 0) sum += diffuse_share * brdf::CosineLobe<float>{}.density({below, diffuse.view});
+    if (below.z > 0) {
+      const brdf::Geometry<float> g(below, diffuse.view);
+      sum += diffuse_share *
+             brdf::mix(brdf::HemisphereLobe<float>{}.density(g), brdf::CosineLobe<float>{}.density(g), cosine_share);
+    }
     if (above.z > 0) {
       const brdf::Geometry<float> g(above, specular.view);
       sum += (1 - diffuse_share) * brdf::mix(first.density(g), second.density(g), model.dual_specular_opacity);
@@ -85,8 +101,7 @@ struct DualLobes {
 Value eval_dual(const Bound& bound, const glm::vec3& to_light, const glm::vec3& to_view) {
   if (!(to_light.z > 0) || !(to_view.z > 0)) return {};
   const Pairs pairs(bound, to_light, to_view);
-  return {to_glm(brdf::dual_normal(model_of<C>(bound), pairs.diffuse, pairs.specular)),
-          DualLobes(bound, to_view).density(to_light)};
+  return {pairs.f_cos(model_of<C>(bound), bound.bumps), DualLobes(bound, to_view).density(to_light)};
 }
 
 Direction sample_dual(const Bound& bound, const glm::vec3& to_view, float choice, const glm::vec2& u) {
@@ -96,18 +111,17 @@ Direction sample_dual(const Bound& bound, const glm::vec3& to_view, float choice
   const float pdf = lobes.density(light);
   if (!(light.z > 0) || !(pdf > 0)) return {};
   const Pairs pairs(bound, light, to_view);
-  return {light, pdf, to_glm(brdf::dual_normal(lobes.model, pairs.diffuse, pairs.specular)) / pdf};
+  return {light, pdf, pairs.f_cos(lobes.model, bound.bumps) / pdf};
 }
 
 Lobes lobes_dual(const Bound& bound, const glm::vec3& to_light, const glm::vec3& to_view) {
   if (!(to_light.z > 0) || !(to_view.z > 0)) return {};
   const Pairs pairs(bound, to_light, to_view);
   const C& model = model_of<C>(bound);
-  const glm::vec3 whole = to_glm(brdf::dual_normal(model, pairs.diffuse, pairs.specular));
+  const glm::vec3 whole = pairs.f_cos(model, bound.bumps);
   C black = model;
   black.base_color = brdf::Rgb<float>(0.0f);
-  const glm::vec3 glossy =
-      model.metallic >= 1 ? whole : to_glm(brdf::dual_normal(black, pairs.diffuse, pairs.specular));
+  const glm::vec3 glossy = model.metallic >= 1 ? whole : pairs.f_cos(black, bound.bumps);
   return {glm::max(whole - glossy, glm::vec3(0)), glossy};
 }
 

@@ -17,6 +17,8 @@ struct Bound {
   const void* model = nullptr;
   // With dual normals, in the frame of the surface: unit. (The frame of other materials is that of their normal.)
   glm::vec3 diffuse_normal{0, 0, 1}, specular_normal{0, 0, 1};
+  // Alpha of bumps that are too small to be seen, in the diffuse; what distant kernels read. 0: there are none.
+  float bumps = 0;
 };
 
 // f cos_i [1/sr], and the density with which sample() gives that direction [1/sr]. 0 at and below the horizon.
@@ -47,6 +49,9 @@ struct Kernel {
 // The kernel of a Callisto material that needs `parts` (brdf::Callisto::Part), with one normal or two. Sets that cannot
 // be are those of a superset that can.
 Kernel callisto_kernel(unsigned parts, bool has_dual_normals);
+
+// The same with Proxima of Bound::bumps in the place of Lambert. Parts without a diffuse: the same kernel.
+Kernel distant_callisto_kernel(unsigned parts, bool has_dual_normals);
 
 // The kernel of any other model. Callisto: the whole of it.
 Kernel kernel_of(const brdf::AnyBrdf& model);

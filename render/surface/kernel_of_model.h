@@ -21,23 +21,24 @@ const M& model_of(const Bound& bound) {
 // A model, or the part of one, as the functions below use it.
 template <class M>
 struct Whole {
-  static brdf::Rgb<float> eval(const M& m, const brdf::Geometry<float>& g) { return m.eval(g); }
-  static auto lobes(const M& m, const brdf::Vec3<float>& to_view) { return m.lobes(to_view); }
+  static brdf::Rgb<float> eval(const Bound& b, const brdf::Geometry<float>& g) { return model_of<M>(b).eval(g); }
+  static auto lobes(const Bound& b, const brdf::Vec3<float>& to_view) { return model_of<M>(b).lobes(to_view); }
 };
 template <unsigned kParts>
 struct PartOfCallisto {
   using M = brdf::Callisto<float>;
-  static brdf::Rgb<float> eval(const M& m, const brdf::Geometry<float>& g) { return m.eval<kParts>(g); }
-  static auto lobes(const M& m, const brdf::Vec3<float>& to_view) { return m.lobes<kParts>(to_view); }
+  static brdf::Rgb<float> eval(const Bound& b, const brdf::Geometry<float>& g) {
+    return model_of<M>(b).eval<kParts>(g);
+  }
+  static auto lobes(const Bound& b, const brdf::Vec3<float>& to_view) { return model_of<M>(b).lobes<kParts>(to_view); }
 };
 
 template <class M, class How>
 Value eval_with(const Bound& bound, const glm::vec3& to_light, const glm::vec3& to_view) {
-  const M& model = model_of<M>(bound);
   const brdf::Vec3<float> view(to_view);
   const brdf::Geometry<float> g(to_light, view);
   if (!g.above) return {};
-  return {to_glm(How::eval(model, g)) * g.cos_i, brdf::lobes_pdf(How::lobes(model, view), g)};
+  return {to_glm(How::eval(bound, g)) * g.cos_i, brdf::lobes_pdf(How::lobes(bound, view), g)};
 }
 
 template <class Lobes>
@@ -48,27 +49,26 @@ brdf::Vec3<float> light_of(const Lobes& lobes, const brdf::Vec3<float>& view, fl
 
 template <class M, class How>
 Direction sample_with(const Bound& bound, const glm::vec3& to_view, float choice, const glm::vec2& u) {
-  const M& model = model_of<M>(bound);
   const brdf::Vec3<float> view(to_view);
-  const auto lobes = How::lobes(model, view);
+  const auto lobes = How::lobes(bound, view);
   const brdf::Vec3<float> light = light_of(lobes, view, choice, u);
   const brdf::Geometry<float> g(light, view);
   if (!g.above) return {};
   const float pdf = lobes.density(g);
   if (!(pdf > 0)) return {};
-  return {to_glm(light), pdf, to_glm(How::eval(model, g)) * (g.cos_i / pdf)};
+  return {to_glm(light), pdf, to_glm(How::eval(bound, g)) * (g.cos_i / pdf)};
 }
 
 template <class M>
 concept IsCallisto = std::derived_from<M, brdf::Callisto<float>>;
 
 // The diffuse and the specular part of Callisto. Another model is one of them as a whole.
-template <class M>
+template <class M, class How = Whole<M>>
 Lobes lobes_with(const Bound& bound, const glm::vec3& to_light, const glm::vec3& to_view) {
   const M& model = model_of<M>(bound);
   const brdf::Geometry<float> g{brdf::Vec3<float>(to_light), brdf::Vec3<float>(to_view)};
   if (!g.above) return {};
-  const glm::vec3 whole = to_glm(model.eval(g)) * g.cos_i;
+  const glm::vec3 whole = to_glm(How::eval(bound, g)) * g.cos_i;
   if constexpr (IsCallisto<M>) {
     const auto t = model.terms(g);
     const auto specular = model.for_channels([&](float rho, float, float, float o) {

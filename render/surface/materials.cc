@@ -1,7 +1,6 @@
 #include "render/surface/materials.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 #include <tuple>
 
@@ -36,6 +35,10 @@ void prepare(const M<double>& model, const scene::Scene& scene, Prepared& out) {
   static_assert(sizeof in_floats <= kModelBytes && std::is_trivially_copyable_v<M<float>>);
   out.model_bytes = sizeof in_floats;
   std::memcpy(&out.model, &in_floats, sizeof in_floats);
+  for (std::size_t i = 0; i < kRows; ++i) {
+    if (M<double>::kParameters[i].name == "roughness") out.roughness_at = places[i];
+    if (M<double>::kParameters[i].name == "dual_specular_roughness_scale") out.second_scale_at = places[i];
+  }
   for (const scene::Material::Binding& binding : out.material->bindings) {
     const Parameter& row = M<double>::kParameters[binding.parameter];
     out.slots.push_back({&scene.images[binding.texture.image], binding.texture, places[binding.parameter], row.channels,
@@ -47,22 +50,26 @@ const scene::Image* image_of(const scene::Scene& scene, const std::optional<scen
   return texture ? &scene.images[texture->image] : nullptr;
 }
 
+std::vector<std::uint16_t> varying_of(const Prepared& material) {
+  std::vector<std::uint16_t> out;
+  const auto add = [&](std::size_t place) {
+    if (place != kNoPlace) out.push_back(static_cast<std::uint16_t>(place));
+  };
+  for (const Prepared::Slot& slot : material.slots)
+    for (int k = 0; k < slot.channels; ++k) add(slot.at + static_cast<std::size_t>(k));
+  if (material.normal_map != nullptr) add(material.roughness_at), add(material.second_scale_at);
+  std::sort(out.begin(), out.end());
+  out.erase(std::unique(out.begin(), out.end()), out.end());
+  return out;
+}
+
 }  // namespace
 
 const void* Prepared::model_at(const glm::vec2& uv, ModelBytes& scratch) const {
-  if (slots.empty()) return &model;
-  std::memcpy(&scratch, &model, model_bytes);
-  const auto put = [&](std::size_t at, float x) { std::memcpy(scratch.bytes.data() + at * sizeof x, &x, sizeof x); };
-  for (const Slot& slot : slots) {
-    const auto clamped = [&](float x) { return std::clamp(std::isnan(x) ? slot.low : x, slot.low, slot.high); };
-    if (slot.channels == 1) {
-      put(slot.at, clamped(texture::number_at(*slot.image, slot.texture, uv)));
-    } else {
-      const glm::vec3 c = texture::color_at(*slot.image, slot.texture, uv);
-      for (int k = 0; k < 3; ++k) put(slot.at + static_cast<std::size_t>(k), clamped(c[k]));
-    }
-  }
-  return &scratch;
+  return model_with(scratch, [&](std::size_t i, auto is_number) {
+    if constexpr (is_number) return texture::number_at(*slots[i].image, slots[i].texture, uv);
+    else return texture::color_at(*slots[i].image, slots[i].texture, uv);
+  });
 }
 
 std::vector<Prepared> prepare_materials(const scene::Scene& scene, bool force_all) {
@@ -75,7 +82,7 @@ std::vector<Prepared> prepare_materials(const scene::Scene& scene, bool force_al
     out.emission_map = image_of(scene, material.emission_map);
     out.emits = material.emission.r > 0 || material.emission.g > 0 || material.emission.b > 0;
     std::visit([&](const auto& model) { prepare(model, scene, out); }, material.brdf);
-    out.kernel = kernel_of(material.brdf);
+    out.kernel = out.distant_kernel = kernel_of(material.brdf);
     if (const auto* callisto = std::get_if<brdf::Callisto<double>>(&material.brdf)) {
       const auto is_fixed = [&](std::string_view name) {
         return std::none_of(material.bindings.begin(), material.bindings.end(), [&](const auto& binding) {
@@ -86,7 +93,10 @@ std::vector<Prepared> prepare_materials(const scene::Scene& scene, bool force_al
       out.is_callisto = true;
       out.callisto_parts = force_all ? static_cast<unsigned>(C::kAllParts) : callisto->parts(is_fixed);
       out.kernel = callisto_kernel(out.callisto_parts, out.has_dual_normals());
+      out.distant_kernel = distant_callisto_kernel(out.callisto_parts, out.has_dual_normals());
+      if ((out.callisto_parts & C::kSecondLobe) == 0) out.second_scale_at = kNoPlace;
     }
+    out.varying = varying_of(out);
   }
   return all;
 }

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <numbers>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
+#include "brdf/normal_length.h"
 #include "render/texture/texture.h"
 
 namespace likeness::surface {
@@ -41,11 +43,64 @@ glm::vec3 normalized_or(const glm::vec3& v, const glm::vec3& otherwise) {
   return length2 > 0 && std::isfinite(length2) ? v / std::sqrt(length2) : otherwise;
 }
 
-// The normal of a map's texel, in the frame of the tangents.
-glm::vec3 mapped(const scene::Image& image, const scene::Texture& texture, const glm::vec2& uv, float strength) {
-  const glm::vec3 c = 2.0f * texture::color_at(image, texture, uv) - 1.0f;
-  return normalized_or({c.x * strength, c.y * strength, std::max(c.z, 1e-3f)}, {0, 0, 1});
+// The frame of a point whose normal is known.
+void look_from(const glm::vec3& to_view, const glm::vec3& normal, Point& p) {
+  p.shading_normal = facing(normal, to_view, p.normal);
+  p.frame = ray::Frame(p.shading_normal);
+  p.to_view = p.frame.local(to_view);
 }
+
+// How textures are read: at full size,
+struct AtFullSize {
+  const void* model(Point& p) const { return p.material->model_at(p.uv, p.scratch); }
+  // The normal of a map's texel in the frame of the tangents; `turned` is -1 from behind.
+  glm::vec3 normal(const Point& p, float turned) const {
+    return map(*p.material->normal_map, *of(p).normal_map, p, turned);
+  }
+  glm::vec3 diffuse_normal(const Point& p, float turned) const {
+    return map(*p.material->diffuse_normal_map, *of(p).diffuse_normal_map, p, turned);
+  }
+  void finish(Point&) const {}
+
+ private:
+  static const scene::Material& of(const Point& p) { return *p.material->material; }
+  static glm::vec3 map(const scene::Image& image, const scene::Texture& texture, const Point& p, float turned) {
+    return texture::normal_at(image, texture, p.uv, turned * of(p).normal_strength);
+  }
+};
+
+// or over a pixel.
+struct OverPixel {
+  const MaterialLevels& levels;
+  texture::Footprint footprint;
+  texture::Filter filter;
+  float deficit = 0, diffuse_deficit = 0;  // of the bumps that the pixel does not show
+
+  const void* model(Point& p) const { return model_over(*p.material, levels, p.uv, footprint, filter, p.scratch); }
+  glm::vec3 normal(const Point& p, float turned) {
+    const glm::vec3 n = map(*levels.normal, p, turned, deficit);
+    diffuse_deficit = deficit;
+    return n;
+  }
+  glm::vec3 diffuse_normal(const Point& p, float turned) {
+    return map(*levels.diffuse_normal, p, turned, diffuse_deficit);
+  }
+  void finish(Point& p) const {
+    if (deficit > 0 && p.material->roughness_at != kNoPlace) {
+      if (p.bound.model != &p.scratch) std::memcpy(&p.scratch, p.bound.model, p.material->model_bytes);
+      p.bound.model = &p.scratch;
+      roughen(*p.material, deficit, p.scratch);
+    }
+    if (diffuse_deficit > 0) p.bound.bumps = brdf::alpha_of_normal_deficit<1>(diffuse_deficit);
+  }
+
+ private:
+  glm::vec3 map(const texture::Levels& map, const Point& p, float turned, float& lost) const {
+    const texture::Levels::MeanNormal mean = map.normal(p.uv, footprint, filter);
+    lost = mean.deficit;
+    return {turned * mean.normal.x, turned * mean.normal.y, mean.normal.z};
+  }
+};
 
 }  // namespace
 
@@ -66,11 +121,11 @@ glm::vec2 Surfaces::uv_at(scene::Index instance, scene::Index triangle, float u,
   return (1 - u - v) * mesh.uvs[corners[0]] + u * mesh.uvs[corners[1]] + v * mesh.uvs[corners[2]];
 }
 
-template <Detail kDetail>
-void Surfaces::at(const ray::Ray& ray, const ray::Hit& hit, Point& p) const {
+glm::vec3 Surfaces::meet(const ray::Ray& ray, const ray::Hit& hit, Point& p) const {
   const Placed& placed = placed_[hit.surface];
   const scene::Mesh& mesh = *placed.mesh;
   p.instance = hit.surface, p.triangle = hit.triangle, p.material = placed.material;
+  p.kernel = &placed.material->kernel;
   const glm::vec3 to_view = -ray.direction;
   glm::vec3 normal;
   if (mesh.is_sphere) {
@@ -98,63 +153,135 @@ void Surfaces::at(const ray::Ray& ray, const ray::Hit& hit, Point& p) const {
   }
   p.is_back = glm::dot(p.normal, to_view) < 0;
   if (p.is_back) p.normal = -p.normal, normal = -normal;
-
   p.bound = {};
-  if constexpr (kDetail == Detail::kTextures) {
-    const Prepared& material = *placed.material;
-    p.bound.model = material.model_at(p.uv, p.scratch);
-    if (material.normal_map != nullptr || material.diffuse_normal_map != nullptr) {
-      glm::vec3 tangent(0);
-      float side = 1;
-      if (!mesh.tangents.empty()) {
-        const auto& corners = mesh.triangles[hit.triangle];
-        const float u = hit.u, v = hit.v, w = 1 - u - v;
-        tangent = placed.world_from_object *
-                  (w * glm::vec3(mesh.tangents[corners[0]]) + u * glm::vec3(mesh.tangents[corners[1]]) +
-                   v * glm::vec3(mesh.tangents[corners[2]]));
-        side = placed.is_mirrored ? -mesh.tangents[corners[0]].w : mesh.tangents[corners[0]].w;
-      } else if (mesh.is_sphere) {
-        tangent = glm::cross(placed.world_from_object[1], p.is_back ? -normal : normal);
-        if (placed.is_mirrored) tangent = -tangent, side = -1;
-      }
-      tangent -= glm::dot(tangent, normal) * normal;
-      const ray::Frame plain(normal);
-      tangent = normalized_or(tangent, plain.x);
-      // Seen from behind the frame is turned over as a whole: bumps stay where they are.
-      const ray::Frame tangents(tangent, side * glm::cross(p.is_back ? -normal : normal, tangent), normal);
-      const float strength = p.is_back ? -material.material->normal_strength : material.material->normal_strength;
-      const auto of = [&](const scene::Image* image, const std::optional<scene::Texture>& texture) {
-        return image == nullptr ? normal : tangents.world(mapped(*image, *texture, p.uv, strength));
-      };
-      if (material.has_dual_normals()) {
-        normal = facing(normal, to_view, p.normal);
-        p.frame = ray::Frame(normal);
-        p.bound.specular_normal = p.frame.local(of(material.normal_map, material.material->normal_map));
-        p.bound.diffuse_normal = p.frame.local(of(material.diffuse_normal_map, material.material->diffuse_normal_map));
-        p.shading_normal = normal;
-        p.to_view = p.frame.local(to_view);
-        return;
-      }
-      normal = of(material.normal_map, material.material->normal_map);
+  return normal;
+}
+
+template <class Textures>
+void Surfaces::dress(const ray::Hit& hit, glm::vec3 normal, const glm::vec3& to_view, Textures&& textures,
+                     Point& p) const {
+  const Prepared& material = *p.material;
+  p.bound.model = textures.model(p);
+  if (material.normal_map != nullptr || material.diffuse_normal_map != nullptr) {
+    const Placed& placed = placed_[hit.surface];
+    const scene::Mesh& mesh = *placed.mesh;
+    glm::vec3 tangent(0);
+    float side = 1;
+    if (!mesh.tangents.empty()) {
+      const auto& corners = mesh.triangles[hit.triangle];
+      const float u = hit.u, v = hit.v, w = 1 - u - v;
+      tangent = placed.world_from_object *
+                (w * glm::vec3(mesh.tangents[corners[0]]) + u * glm::vec3(mesh.tangents[corners[1]]) +
+                 v * glm::vec3(mesh.tangents[corners[2]]));
+      side = placed.is_mirrored ? -mesh.tangents[corners[0]].w : mesh.tangents[corners[0]].w;
+    } else if (mesh.is_sphere) {
+      tangent = glm::cross(placed.world_from_object[1], p.is_back ? -normal : normal);
+      if (placed.is_mirrored) tangent = -tangent, side = -1;
     }
-  } else {
-    p.bound.model = &placed.material->model;
+    tangent -= glm::dot(tangent, normal) * normal;
+    const ray::Frame plain(normal);
+    tangent = normalized_or(tangent, plain.x);
+    // Seen from behind the frame is turned over as a whole: bumps stay where they are.
+    const ray::Frame tangents(tangent, side * glm::cross(p.is_back ? -normal : normal, tangent), normal);
+    const float turned = p.is_back ? -1.0f : 1.0f;
+    const glm::vec3 mapped = material.normal_map == nullptr ? normal : tangents.world(textures.normal(p, turned));
+    if (material.has_dual_normals()) {
+      const glm::vec3 diffuse = tangents.world(textures.diffuse_normal(p, turned));
+      p.shading_normal = facing(normal, to_view, p.normal);
+      p.frame = ray::Frame(p.shading_normal);
+      if (material.normal_map != nullptr) p.bound.specular_normal = p.frame.local(mapped);
+      p.bound.diffuse_normal = p.frame.local(diffuse);
+      p.to_view = p.frame.local(to_view);
+      textures.finish(p);
+      return;
+    }
+    normal = mapped;
   }
-  p.shading_normal = facing(normal, to_view, p.normal);
-  p.frame = ray::Frame(p.shading_normal);
-  p.to_view = p.frame.local(to_view);
+  textures.finish(p);
+  look_from(to_view, normal, p);
+}
+
+template <Detail kDetail>
+void Surfaces::at(const ray::Ray& ray, const ray::Hit& hit, Point& p) const {
+  const glm::vec3 normal = meet(ray, hit, p), to_view = -ray.direction;
+  if constexpr (kDetail == Detail::kTextures) {
+    dress(hit, normal, to_view, AtFullSize{}, p);
+  } else {
+    p.bound.model = &p.material->model;
+    look_from(to_view, normal, p);
+  }
+}
+
+void Surfaces::over(const ray::Ray& ray, const ray::Hit& hit, const Pixel& pixel, Point& p) const {
+  const glm::vec3 normal = meet(ray, hit, p);
+  dress(hit, normal, -ray.direction,
+        OverPixel{pixel.levels.of(*p.material), footprint(ray, hit, p, pixel), pixel.filter}, p);
 }
 
 template void Surfaces::at<Detail::kNone>(const ray::Ray&, const ray::Hit&, Point&) const;
 template void Surfaces::at<Detail::kTextures>(const ray::Ray&, const ray::Hit&, Point&) const;
 
-glm::vec3 Surfaces::emission(const Point& p) const {
+// Source  Igehy, "Tracing Ray Differentials", SIGGRAPH 1999, for the plane of the triangle; a sphere's uv by its tangent
+//         plane. The cosine between view and plane is kept above 1e-4.
+texture::Footprint Surfaces::footprint(const ray::Ray& ray, const ray::Hit& hit, const Point& p,
+                                       const Pixel& pixel) const {
+  const Placed& placed = placed_[hit.surface];
+  const scene::Mesh& mesh = *placed.mesh;
+  const float cosine = std::min(glm::dot(p.normal, ray.direction), -1e-4f);
+  const float distance = glm::length(p.position - ray.origin);
+  const auto moved = [&](const glm::vec3& turn) {
+    return distance * (turn - (glm::dot(p.normal, turn) / cosine) * ray.direction);
+  };
+  const glm::vec3 right = moved(pixel.right), down = moved(pixel.down);
+  const auto finite = [](const glm::vec2& uv) {
+    return std::isfinite(uv.x) && std::isfinite(uv.y) ? uv : glm::vec2(0);
+  };
+  if (mesh.is_sphere) {
+    const glm::mat3 object_from_world = glm::transpose(placed.world_from_object) / (placed.radius * placed.radius);
+    const glm::vec3 at = object_from_world * (p.position - placed.center);
+    const float across2 = std::max(at.x * at.x + at.z * at.z, 1e-6f);  // at a pole u says nothing
+    const auto uv = [&](const glm::vec3& world) {
+      const glm::vec3 d = object_from_world * world;
+      return finite({(at.z * d.x - at.x * d.z) / (2 * kPi * across2), -d.y / (kPi * std::sqrt(across2))});
+    };
+    return {uv(right), uv(down)};
+  }
+  if (mesh.uvs.empty()) return {};
+  const auto& corners = mesh.triangles[hit.triangle];
+  const glm::vec3 a = corner(placed.vertices, corners[0]);
+  const glm::vec3 ab = corner(placed.vertices, corners[1]) - a, ac = corner(placed.vertices, corners[2]) - a;
+  const glm::vec3 normal = glm::cross(ab, ac);
+  const float per_area2 = 1 / glm::dot(normal, normal);
+  const glm::vec2 uv_ab = mesh.uvs[corners[1]] - mesh.uvs[corners[0]],
+                  uv_ac = mesh.uvs[corners[2]] - mesh.uvs[corners[0]];
+  const auto uv = [&](const glm::vec3& d) {
+    return finite(glm::dot(glm::cross(d, ac), normal) * per_area2 * uv_ab +
+                  glm::dot(glm::cross(ab, d), normal) * per_area2 * uv_ac);
+  };
+  return {uv(right), uv(down)};
+}
+
+namespace {
+
+template <class Read>
+glm::vec3 emission_by(const Point& p, Read&& read) {
   if (!p.material->emits || p.is_black()) return glm::vec3(0);
   glm::vec3 radiance = p.material->material->emission;
-  if (p.material->emission_map != nullptr)
-    radiance *=
-        glm::max(texture::color_at(*p.material->emission_map, *p.material->material->emission_map, p.uv), glm::vec3(0));
+  if (p.material->emission_map != nullptr) radiance *= glm::max(read(), glm::vec3(0));
   return radiance;
+}
+
+}  // namespace
+
+glm::vec3 Surfaces::emission(const Point& p) const {
+  return emission_by(
+      p, [&] { return texture::color_at(*p.material->emission_map, *p.material->material->emission_map, p.uv); });
+}
+
+glm::vec3 Surfaces::emission_over(const ray::Ray& ray, const ray::Hit& hit, const Pixel& pixel, const Point& p) const {
+  return emission_by(p, [&] {
+    return pixel.levels.of(*p.material).emission->color(p.uv, footprint(ray, hit, p, pixel), pixel.filter);
+  });
 }
 
 }  // namespace likeness::surface

@@ -9,6 +9,7 @@
 #include "render/ray/frame.h"
 #include "render/ray/tracer.h"
 #include "render/scene/scene.h"
+#include "render/surface/distance.h"
 #include "render/surface/materials.h"
 
 namespace likeness::surface {
@@ -23,7 +24,8 @@ struct Point {
   glm::vec2 uv{0, 0};
   scene::Index instance = scene::kNone, triangle = 0;
   const Prepared* material = nullptr;
-  bool is_back = false;  // the viewer is behind it
+  const Kernel* kernel = nullptr;  // of the material, or its distant one
+  bool is_back = false;            // the viewer is behind it
   Bound bound;
   ModelBytes scratch;  // where bound.model may point to
 
@@ -31,17 +33,17 @@ struct Point {
   bool is_black() const { return is_back && !material->material->two_sided; }
   Value eval(const glm::vec3& to_light) const {
     if (glm::dot(to_light, normal) <= 0) return {};
-    return material->kernel.eval(bound, frame.local(to_light), to_view);
+    return kernel->eval(bound, frame.local(to_light), to_view);
   }
   Direction sample(float choice, const glm::vec2& u) const {
-    Direction d = material->kernel.sample(bound, to_view, choice, u);
+    Direction d = kernel->sample(bound, to_view, choice, u);
     d.to_light = frame.world(d.to_light);
     if (glm::dot(d.to_light, normal) <= 0) d.pdf = 0, d.weight = glm::vec3(0);
     return d;
   }
   Lobes lobes(const glm::vec3& to_light) const {
     if (glm::dot(to_light, normal) <= 0) return {};
-    return material->kernel.lobes(bound, frame.local(to_light), to_view);
+    return kernel->lobes(bound, frame.local(to_light), to_view);
   }
 };
 
@@ -58,8 +60,15 @@ class Surfaces {
   template <Detail kDetail>
   void at(const ray::Ray& ray, const ray::Hit& hit, Point& point) const;
 
+  // The same for all that a pixel sees, about the point that its ray met.
+  void over(const ray::Ray& ray, const ray::Hit& hit, const Pixel& pixel, Point& point) const;
+
+  // How far uv moves when the pixel moves by one. A mesh without uvs, or triangles without an area in uv: zero.
+  texture::Footprint footprint(const ray::Ray& ray, const ray::Hit& hit, const Point& point, const Pixel& pixel) const;
+
   // Radiance that the point sends to its viewer on its own [W/(m^2 sr)].
   glm::vec3 emission(const Point& point) const;
+  glm::vec3 emission_over(const ray::Ray& ray, const ray::Hit& hit, const Pixel& pixel, const Point& point) const;
 
   glm::vec2 uv_at(scene::Index instance, scene::Index triangle, float u, float v) const;
 
@@ -73,6 +82,11 @@ class Surfaces {
     float radius;
     bool is_mirrored;  // the order of corners says the other side
   };
+  // Position, geometry and uv; returns the mesh's own normal, on the viewer's side.
+  glm::vec3 meet(const ray::Ray& ray, const ray::Hit& hit, Point& point) const;
+  template <class Textures>
+  void dress(const ray::Hit& hit, glm::vec3 normal, const glm::vec3& to_view, Textures&& textures, Point& point) const;
+
   std::vector<Placed> placed_;
 };
 

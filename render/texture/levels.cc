@@ -132,12 +132,9 @@ glm::vec3 normal_at(const scene::Image& image, const scene::Texture& texture, co
 }
 
 Levels::Levels(const scene::Image& image, const scene::Texture& texture, Meaning meaning, float normal_strength)
-    : image_(&image), texture_(&texture), meaning_(meaning), strength_(normal_strength), of_levels_(texture) {
+    : image_(&image), texture_(&texture), meaning_(meaning), strength_(normal_strength) {
   const image::Texels& full = image.texels;
-  if (meaning != Meaning::kValues) {
-    of_levels_.scale = glm::vec3(1), of_levels_.offset = glm::vec3(0), of_levels_.channel = 0;
-    of_levels_.transfer = scene::Transfer::kLinear;
-  }
+  place(texture);
   using Channels = std::array<float, kMostChannels>;
   const auto read = [&](int x, int y, Channels& out) {
     if (meaning == Meaning::kValues) {
@@ -155,10 +152,12 @@ Levels::Levels(const scene::Image& image, const scene::Texture& texture, Meaning
     }
   };
   const int channels = meaning == Meaning::kValues ? full.channels : meaning == Meaning::kNormals ? 3 : 1;
+  const auto smaller = std::make_shared<std::vector<scene::Image>>();
+  smaller_ = smaller;
   if (full.width <= 1 && full.height <= 1) return;
   Plane plane = halved(full.width, full.height, channels, read);
   for (;;) {
-    smaller_.push_back({image.name, kept(plane, image, texture.transfer, meaning)});
+    smaller->push_back({image.name, kept(plane, image, texture.transfer, meaning)});
     if (plane.width == 1 && plane.height == 1) return;
     plane = halved(plane.width, plane.height, channels, [&](int x, int y, Channels& out) {
       for (std::size_t k = 0; k < static_cast<std::size_t>(channels); ++k) out[k] = plane.values[plane.at(x, y) + k];
@@ -166,9 +165,32 @@ Levels::Levels(const scene::Image& image, const scene::Texture& texture, Meaning
   }
 }
 
+void Levels::place(const scene::Texture& texture) {
+  texture_ = &texture;
+  of_levels_ = texture;
+  if (meaning_ == Meaning::kValues) return;
+  // Normals and roughness are kept as what they are, and no longer as a picture has them.
+  of_levels_.scale = glm::vec3(1), of_levels_.offset = glm::vec3(0), of_levels_.channel = 0;
+  of_levels_.transfer = scene::Transfer::kLinear;
+}
+
+bool Levels::serves(const scene::Image& image, const scene::Texture& texture, Meaning meaning,
+                    float normal_strength) const {
+  if (&image != image_ || meaning != meaning_ || texture.transfer != texture_->transfer) return false;
+  if (meaning == Meaning::kValues) return true;
+  if (texture.scale != texture_->scale || texture.offset != texture_->offset) return false;
+  return meaning == Meaning::kNormals ? normal_strength == strength_ : texture.channel == texture_->channel;
+}
+
+Levels Levels::placed(const scene::Texture& texture) const {
+  Levels out = *this;
+  out.place(texture);
+  return out;
+}
+
 std::size_t Levels::bytes() const {
   std::size_t sum = 0;
-  for (const scene::Image& level : smaller_)
+  for (const scene::Image& level : *smaller_)
     sum += level.texels.bytes.size() + sizeof(float) * level.texels.floats.size();
   return sum;
 }
@@ -201,14 +223,14 @@ Probes Levels::probes(const glm::vec2& uv, const Footprint& footprint, Filter fi
 glm::vec3 Levels::color(const glm::vec2& uv, const Footprint& footprint, Filter filter) const {
   return mean(probes(uv, footprint, filter), [&](int level, const glm::vec2& at) {
     return level == 0 ? color_at(*image_, *texture_, at)
-                      : color_at(smaller_[static_cast<std::size_t>(level - 1)], of_levels_, at);
+                      : color_at((*smaller_)[static_cast<std::size_t>(level - 1)], of_levels_, at);
   });
 }
 
 float Levels::number(const glm::vec2& uv, const Footprint& footprint, Filter filter) const {
   return mean(probes(uv, footprint, filter), [&](int level, const glm::vec2& at) {
     return level == 0 ? number_at(*image_, *texture_, at)
-                      : number_at(smaller_[static_cast<std::size_t>(level - 1)], of_levels_, at);
+                      : number_at((*smaller_)[static_cast<std::size_t>(level - 1)], of_levels_, at);
   });
 }
 
@@ -216,7 +238,7 @@ Levels::MeanNormal Levels::normal(const glm::vec2& uv, const Footprint& footprin
   const Probes p = probes(uv, footprint, filter);
   const glm::vec3 m = mean(p, [&](int level, const glm::vec2& at) {
     return level == 0 ? normal_at(*image_, *texture_, at, strength_)
-                      : color_at(smaller_[static_cast<std::size_t>(level - 1)], of_levels_, at);
+                      : color_at((*smaller_)[static_cast<std::size_t>(level - 1)], of_levels_, at);
   });
   if (p.is_full()) return {m, 0};
   const float length = glm::length(m);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include <glm/vec2.hpp>
@@ -57,7 +58,11 @@ class Levels {
   // Keeps pointers to both, which must outlive it.
   Levels(const scene::Image& image, const scene::Texture& texture, Meaning meaning, float normal_strength = 1);
 
-  int count() const { return 1 + static_cast<int>(smaller_.size()); }
+  // Whether the levels of this one are those of another texture too, and that texture with them.
+  bool serves(const scene::Image& image, const scene::Texture& texture, Meaning meaning, float normal_strength) const;
+  Levels placed(const scene::Texture& texture) const;
+
+  int count() const { return 1 + static_cast<int>(smaller_->size()); }
   std::size_t bytes() const;  // of the levels below full size
 
   // As color_at and number_at of texture.h (which they are at full size), over a footprint.
@@ -73,6 +78,7 @@ class Levels {
  private:
   template <class Read>
   auto mean(const Probes& probes, Read&& read) const;
+  void place(const scene::Texture& texture);
   Probes probes(const glm::vec2& uv, const Footprint& footprint, Filter filter) const;
 
   const scene::Image* image_;
@@ -80,7 +86,7 @@ class Levels {
   Meaning meaning_;
   float strength_;
   scene::Texture of_levels_;  // how the smaller pictures are read
-  std::vector<scene::Image> smaller_;
+  std::shared_ptr<const std::vector<scene::Image>> smaller_;
 };
 
 }  // namespace likeness::texture

@@ -29,6 +29,13 @@ ray::Ray Camera::ray(const glm::vec2& at, const glm::vec2& lens) const {
           glm::normalize(world_from_camera_ * (way * focus_distance_ - on_lens)), ray::kFar};
 }
 
+Camera::Spread Camera::spread(const glm::vec3& direction) const {
+  // direction = way / |way|, whose part along the axis is 1 / |way|.
+  const float shortening = std::abs(glm::dot(direction, world_from_camera_[2]));
+  const auto turn = [&](const glm::vec3& step) { return shortening * (step - glm::dot(step, direction) * direction); };
+  return {turn(world_from_camera_[0] / focal_x_), turn(-world_from_camera_[1] / focal_y_)};
+}
+
 float Camera::depth(const glm::vec3& point) const { return -glm::dot(point - position_, world_from_camera_[2]); }
 
 }  // namespace likeness::world

@@ -21,6 +21,12 @@ class Camera {
   // [0, 1)^2 is a point of the lens; a pinhole does not read it.
   ray::Ray ray(const glm::vec2& at, const glm::vec2& lens = {0.5f, 0.5f}) const;
 
+  // By how much the unit direction of a pinhole's ray changes when the picture's point moves by one pixel.
+  struct Spread {
+    glm::vec3 right, down;
+  };
+  Spread spread(const glm::vec3& direction) const;
+
   // The distance along the axis (its depth) of a point in the world [m], negative behind the camera.
   float depth(const glm::vec3& point) const;
   const glm::vec3& position() const { return position_; }

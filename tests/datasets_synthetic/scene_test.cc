@@ -96,7 +96,7 @@ TEST(MakeScene, TheSameOptionsGiveTheSameBytes) {
 
 TEST(MakeScene, TheSeedMovesWhatIsScattered) {
   const TemporaryFolder folder;
-  for (const std::string_view name : {"corridor", "teeth", "eye", "torture"}) {
+  for (const std::string_view name : {"corridor", "teeth", "eye", "distance", "torture"}) {
     SceneOptions options;
     options.folder = folder / (std::string(name) + "_a");
     write_scene(kind(name), options);

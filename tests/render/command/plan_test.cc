@@ -130,6 +130,21 @@ const std::vector<Edit>& edits() {
        "model ggx"},
       {"a texture", [](Scene& s) { bind(s, "roughness"); }, {Effect::kTextures}, "roughness has a texture"},
       {"a normal map", [](Scene& s) { s.materials[0].normal_map = texture(s); }, {Effect::kNormalMaps}, "normal_map"},
+      {"a texture of many texels",
+       [](Scene& s) {
+         bind(s, "roughness");
+         s.images[0].texels = {2, 1, 1, {1, 2}, {}};
+       },
+       {Effect::kTextureLevels, Effect::kTextures},
+       "roughness has 2 x 1 texels"},
+      {"bumps on a diffuse",
+       [](Scene& s) {
+         callisto(s).metallic = 0;
+         s.materials[0].normal_map = texture(s);
+         s.images[0].texels = {2, 1, 1, {1, 2}, {}};
+       },
+       {Effect::kProxima, Effect::kTextureLevels, Effect::kNormalMaps, Effect::kDiffuse},
+       "normal_map has 2 x 1 texels"},
       {"dual normals",
        [](Scene& s) { s.materials[0].diffuse_normal_map = texture(s); },
        {Effect::kDualNormals},
@@ -218,6 +233,7 @@ Scene full_scene() {
   paint.specular_fresnel_falloff = 0.3, paint.dual_specular_opacity = 0.5;
   bind(s, "base_color");
   s.materials[0].normal_map = s.materials[0].diffuse_normal_map = s.materials[0].opacity = texture(s);
+  s.images[0].texels = {2, 1, 1, {100, 150}, {}};
   s.materials[0].emission = {1, 1, 1};
   s.materials.emplace_back().brdf = brdf::Disney2012<double>{};
   s.instances.push_back({"other", 0, 1, glm::mat4(1)});
@@ -236,7 +252,10 @@ TEST(Without, TakesOneEffectAwayAndWhatHangsOnIt) {
   for (const EffectRow& r : kEffects) {
     Effects expected = on(plan_of(full));
     expected.erase(r.effect);
-    if (r.effect == Effect::kDiffuse) expected.erase(Effect::kDiffuseFresnel), expected.erase(Effect::kRetroreflection);
+    if (r.effect == Effect::kDiffuse)
+      for (const Effect hangs : {Effect::kDiffuseFresnel, Effect::kRetroreflection, Effect::kProxima})
+        expected.erase(hangs);
+    if (r.effect == Effect::kTextureLevels) expected.erase(Effect::kProxima);
     if (r.effect == Effect::kPointLights) expected.erase(Effect::kProfiles);
     if (r.effect == Effect::kEnvironment) expected.erase(Effect::kEnvironmentPicture);
     EXPECT_EQ(names(on(plan_of(without(full, r.effect)))), names(expected)) << r.name;

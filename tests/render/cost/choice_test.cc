@@ -98,12 +98,11 @@ TEST(BestWithin, LowersTheHighestLevelsAndOnlyThoseThatMatter) {
   for (std::size_t level = 0; level < 5; ++level)  // a ray takes 1 ms, visibility nothing
     frames.push_back({{0, level, 0}, static_cast<double>(1 << (2 * level)), {{"direct", double(1 << (2 * level))}}});
   const TimeModel model(frames);
-  EXPECT_EQ(best_within(model, {true, true, false}, 1e9), (Levels{4, 4, 0}));
-  EXPECT_EQ(best_within(model, {true, true, false}, 4096), (Levels{3, 3, 0}));
-  EXPECT_EQ(best_within(model, {true, true, false}, 4095), (Levels{3, 2, 0})) << "the later setting first";
-  EXPECT_EQ(best_within(model, {true, false, false}, 1e9), (Levels{4, 1, 0}))
-      << "what does not matter keeps its default";
-  EXPECT_EQ(best_within(model, {true, true, false}, 0), (Levels{0, 0, 0})) << "nothing is cheaper";
+  EXPECT_EQ(best_within(model, {true, true}, 1e9), (Levels{4, 4, 0, 3, 1}));
+  EXPECT_EQ(best_within(model, {true, true}, 4096), (Levels{3, 3, 0, 3, 1}));
+  EXPECT_EQ(best_within(model, {true, true}, 4095), (Levels{3, 2, 0, 3, 1})) << "the later setting first";
+  EXPECT_EQ(best_within(model, {true}, 1e9), (Levels{4, 1, 0, 3, 1})) << "what does not matter keeps its default";
+  EXPECT_EQ(best_within(model, {true, true}, 0), (Levels{0, 0, 0, 3, 1})) << "nothing is cheaper";
 }
 
 }  // namespace

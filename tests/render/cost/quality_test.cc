@@ -78,10 +78,12 @@ TEST(Settings, MatterWhereThePlanHasWhatTheyWorkOn) {
     for (const SettingRow& row : kSettings) out += row.matters(plan) ? '1' : '0';
     return out;
   };
-  EXPECT_EQ(matter({plan::Effect::kPointLights}), "100");
-  EXPECT_EQ(matter({plan::Effect::kAreaLights}), "110");
-  EXPECT_EQ(matter({plan::Effect::kEmission}), "110");
-  EXPECT_EQ(matter({plan::Effect::kEnvironment}), "101");
+  EXPECT_EQ(matter({plan::Effect::kPointLights}), "10000");
+  EXPECT_EQ(matter({plan::Effect::kAreaLights}), "11000");
+  EXPECT_EQ(matter({plan::Effect::kEmission}), "11000");
+  EXPECT_EQ(matter({plan::Effect::kEnvironment}), "10100");
+  EXPECT_EQ(matter({plan::Effect::kTextureLevels}), "10010");
+  EXPECT_EQ(matter({plan::Effect::kTextureLevels, plan::Effect::kProxima}), "10011");
 }
 
 }  // namespace

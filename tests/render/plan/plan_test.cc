@@ -22,7 +22,7 @@ scene::Scene base() {
   scene.materials[0].name = "steel";
   scene.materials[0].brdf = scene.materials[1].brdf = metal;
   scene.instances = {{"thing", 0, 0, glm::mat4(1)}};
-  scene.images = {{"picture.png", {1, 1, 3, {}, {1, 1, 1}}}};
+  scene.images = {{"picture.png", {1, 1, 3, {}, {1, 1, 1}}}, {"bumps.png", {2, 1, 3, {}, {1, 1, 1, 0, 1, 1}}}};
   scene.profiles = {{"lamp.ies", {}, {0, 90}, {0}, {1, 1}}};
   scene.cameras = {{.name = "front"}, {.name = "other"}};
   return scene;
@@ -57,6 +57,14 @@ const std::map<Effect, Case>& cases() {
        {[](auto& s) { s.materials[0].bindings = {{3, {.image = 0}}}; },
         {},
         "material \"steel\": roughness has a texture"}},
+      {Effect::kTextureLevels,
+       {[](auto& s) { s.materials[0].bindings = {{3, {.image = 1}}}; },
+        {Effect::kTextures},
+        "material \"steel\": roughness has 2 x 1 texels"}},
+      {Effect::kProxima,
+       {[](auto& s) { callisto(s).metallic = 0, s.materials[0].normal_map = scene::Texture{1}; },
+        {Effect::kDiffuse, Effect::kNormalMaps, Effect::kTextureLevels},
+        "material \"steel\": normal_map has 2 x 1 texels"}},
       {Effect::kNormalMaps,
        {[](auto& s) { s.materials[0].normal_map = scene::Texture{0}; }, {}, "material \"steel\": normal_map"}},
       {Effect::kDualNormals,
@@ -96,6 +104,28 @@ TEST(Plan, OfASceneThatUsesNothingHasNothing) {
     EXPECT_FALSE(plan.has(row.effect)) << row.name;
     EXPECT_FALSE(plan.decisions[static_cast<std::size_t>(row.effect)].because.empty()) << row.name;
   }
+}
+
+// What a pixel sees of a texture needs levels whatever the texture gives; what only rays read does not.
+TEST(Plan, HasLevelsForEveryTextureThatPixelsRead) {
+  const scene::Texture bumps{1};
+  const auto has = [](const scene::Scene& s, Effect effect) { return plan_of(s).has(effect); };
+  scene::Scene s = base();
+  s.materials[0].opacity = bumps;
+  EXPECT_FALSE(has(s, Effect::kTextureLevels));
+  s = base(), s.materials[0].emission_map = bumps;
+  EXPECT_TRUE(has(s, Effect::kTextureLevels));
+  s = base(), s.materials[0].diffuse_normal_map = bumps;
+  EXPECT_TRUE(has(s, Effect::kTextureLevels));
+  EXPECT_FALSE(has(s, Effect::kProxima)) << "a metal has no diffuse";
+  callisto(s).metallic = 0;
+  EXPECT_TRUE(has(s, Effect::kProxima));
+  s = base(), callisto(s).metallic = 0, s.materials[0].normal_map = bumps;
+  s.materials[0].diffuse_normal_map = scene::Texture{0};
+  EXPECT_FALSE(has(s, Effect::kProxima)) << "the bumps are the specular's";
+  s = base(), s.materials[0].brdf = brdf::Disney2012<double>(), s.materials[0].normal_map = bumps;
+  EXPECT_TRUE(has(s, Effect::kTextureLevels));
+  EXPECT_FALSE(has(s, Effect::kProxima)) << "another model";
 }
 
 TEST(Plan, IsChangedByEachEditByJustWhatItNeedsAndSaysWhy) {

@@ -25,13 +25,17 @@ TEST(Passes, AreThoseThatTheSceneCallsFor) {
   EXPECT_EQ(names(passes_of(plan::plan_of(s), {})), (Names{"visibility", "light lists", "direct", "environment"}));
   s.environment.reset();
   EXPECT_EQ(names(passes_of(plan::plan_of(s), {})), (Names{"visibility", "light lists", "direct"}));
+  s.images.push_back({"bumps", {1, 1, 3, {}, {0.5f, 0.5f, 1}}});
+  s.materials[0].normal_map = scene::Texture{0};
+  EXPECT_EQ(names(passes_of(plan::plan_of(s), {})), (Names{"visibility", "textures", "light lists", "direct"}));
 }
 
 TEST(Passes, ReadOnlyWhatWasWritten) {
   scene::Scene s = test::spheres();
   std::vector<Pass> passes = passes_of(plan::plan_of(s, 0, true), {});
   EXPECT_EQ(complaint(passes), "");
-  std::swap(passes[1], passes[2]);
+  ASSERT_EQ(passes[3].name, "direct");
+  std::swap(passes[2], passes[3]);
   EXPECT_EQ(complaint(passes), "pass \"direct\" reads light lists, which no pass before it writes");
 }
 
