@@ -1,14 +1,16 @@
 #!/usr/bin/env python3
 """The path tracer beside Cycles on the same scenes, one thread, interleaved.
 
-    tests/benchmark/cycles/compare.py build/release/likeness [--spp 64] [--repeats 3] [--scenes cornell ggx_sphere ...]
+    tests/benchmark/cycles/compare.py build/release/likeness [--spp 64] [--repeats 3] [--scenes cornell head ...]
 
 Needs `blender` (Debian's package: Cycles 3.4) and `oiiotool`. For each scene it prints the CPU seconds that one more sample a pixel costs
 (a render of N + 1 samples minus one of 1, whole processes), relMSE over the seeds of the repeats (variance / (mean^2 +
 0.01)), and cost = relMSE x samples x CPU seconds a sample: what an error of 1 would take. Mean and median say whether both
-see the same picture. 256 x 256, at most 64 bounces.
+see the same picture. 256 x 256, at most 64 bounces. The head scan needs the shared data (--data); without it that scene is
+left out.
 """
 import argparse
+import json
 import os
 import resource
 import statistics
@@ -19,6 +21,22 @@ import tempfile
 # Blender looks for its Python's packages beside the first python3 of PATH: that must be the system's.
 SYSTEM = dict(os.environ, PATH="/usr/local/bin:/usr/bin:/bin")
 HERE = os.path.dirname(os.path.abspath(__file__))
+
+
+def head_scene(data, folder):
+    """The head scan with its colors, no bumps, under a photo of a studio; False if the data is not there."""
+    mesh, colors = (f"{data}/heads/lee-perry-smith/{name}" for name in ("LeePerrySmith.glb", "Map-COL.jpg"))
+    studio = f"{data}/hdri/studio_small_03_1k.hdr"
+    if not all(os.path.exists(file) for file in (mesh, colors, studio)):
+        return False
+    os.makedirs(folder, exist_ok=True)
+    camera = {"position": [0, 0.2, 12], "target": [0, 0.2, 0], "fov_deg": 30, "width": 256, "height": 256}
+    with open(f"{folder}/scene.json", "w") as file:
+        json.dump({"format": "likeness scene", "version": 1, "name": "head", "cameras": [camera],
+                   "meshes": {"head": {"file": mesh, "flip_v": True}},
+                   "materials": {"skin": {"model": "callisto", "parameters": {"base_color": {"file": colors}}}},
+                   "instances": [{"mesh": "head", "material": "skin"}], "environment": {"file": studio}}, file)
+    return True
 
 
 def cpu_seconds(command):
@@ -35,13 +53,18 @@ def main():
     parser.add_argument("likeness")
     parser.add_argument("--spp", type=int, default=64)
     parser.add_argument("--repeats", type=int, default=3)
-    parser.add_argument("--scenes", nargs="+", default=["ggx_sphere", "plastic_sphere", "cornell"])
+    parser.add_argument("--scenes", nargs="+", default=["ggx_sphere", "plastic_sphere", "cornell", "head"])
+    parser.add_argument("--data", default=os.path.join(HERE, "../../../../shared/data"))
     options = parser.parse_args()
 
     with tempfile.TemporaryDirectory() as folder:
         print(f"{'scene':16}{'renderer':10}{'CPU s/spp':>10}{'range':>16}{'mean':>9}{'median':>9}{'relMSE':>10}{'cost':>10}")
         for scene in options.scenes:
-            cpu_seconds([options.likeness, "make", "scene", scene, "--out", f"{folder}/{scene}"])
+            if scene != "head":
+                cpu_seconds([options.likeness, "make", "scene", scene, "--out", f"{folder}/{scene}"])
+            elif not head_scene(os.path.abspath(options.data), f"{folder}/{scene}"):
+                print(f"{scene:16}left out: the head scan is not in {options.data}")
+                continue
             file = f"{folder}/{scene}/scene.json"
 
             def ours(spp, seed, out):

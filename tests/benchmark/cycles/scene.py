@@ -1,7 +1,7 @@
 """Renders a scene.json of `likeness make scene` with Cycles: blender -b --factory-startup -P scene.py -- SCENE OUT.exr SPP SEED SIZE THREADS
 
-Knows what cornell, ggx_sphere and plastic_sphere are made of: PLY meshes and spheres; lambert, ggx and callisto at its
-defaults; rectangles of light; an environment of one color. Coordinates stay y up.
+Knows what the scenes of compare.py are made of: PLY and glTF meshes and spheres; lambert, ggx and callisto at its defaults,
+its base color a picture or not; rectangles of light; an environment of one color or a picture. Coordinates stay y up.
 """
 import json
 import math
@@ -10,6 +10,10 @@ import sys
 
 import bpy
 import mathutils
+import numpy
+
+for name, kind in (("bool", bool), ("int", int), ("float", float), ("object", object)):
+    setattr(numpy, name, kind)  # names that Blender 3.4's reader of glTF has of an older numpy
 
 scene_file, out, spp, seed, size, threads = sys.argv[sys.argv.index("--") + 1:]
 description = json.load(open(scene_file))
@@ -51,21 +55,43 @@ def material(row):
     else:
         for name, key, usual in (("Roughness", "roughness", 0.5), ("Specular", "specular", 0.5), ("Metallic", "metallic", 0)):
             shader.inputs[name].default_value = p.get(key, usual)
-        shader.inputs["Base Color"].default_value = color(p.get("base_color", 0.5)) + [1]
+        base_color = p.get("base_color", 0.5)
+        if isinstance(base_color, dict):
+            picture = nodes.new("ShaderNodeTexImage")
+            picture.image = bpy.data.images.load(base_color["file"])
+            made.node_tree.links.new(picture.outputs["Color"], shader.inputs["Base Color"])
+        else:
+            shader.inputs["Base Color"].default_value = color(base_color) + [1]
     output = nodes.new("ShaderNodeOutputMaterial")
     made.node_tree.links.new(shader.outputs[0], output.inputs[0])
     return made
 
 
-materials = {name: material(row) for name, row in description["materials"].items()}
-for instance in description["instances"]:
-    mesh = description["meshes"][instance["mesh"]]
-    if "file" in mesh:
-        bpy.ops.import_mesh.ply(filepath=os.path.join(os.path.dirname(scene_file), mesh["file"]))
-    else:
+def add_mesh(mesh):
+    """The mesh as the active object, as it is in its file: y up, and its own v."""
+    if "file" not in mesh:
         assert mesh["shape"] == "sphere"
         bpy.ops.mesh.primitive_uv_sphere_add(segments=256, ring_count=128, radius=1)
         bpy.ops.object.shade_smooth()
+        return
+    file = os.path.join(os.path.dirname(scene_file), mesh["file"])
+    if file.endswith(".ply"):
+        bpy.ops.import_mesh.ply(filepath=file)
+        return
+    bpy.ops.import_scene.gltf(filepath=file)
+    (thing,) = [o for o in scene.objects if o.type == "MESH" and o.data.uv_layers]
+    bpy.context.view_layer.objects.active = thing
+    turned = mathutils.Matrix.Rotation(math.radians(-90), 4, "X") @ thing.matrix_world  # the reader turned y to z
+    thing.parent = None
+    thing.data.transform(turned)
+    if mesh.get("flip_v"):
+        for corner in thing.data.uv_layers.active.data:
+            corner.uv.y = 1 - corner.uv.y
+
+
+materials = {name: material(row) for name, row in description["materials"].items()}
+for instance in description["instances"]:
+    add_mesh(description["meshes"][instance["mesh"]])
     thing = bpy.context.object
     thing.matrix_world = mathutils.Matrix.Identity(4)
     thing.data.materials.clear()
@@ -88,7 +114,23 @@ for row in description.get("lights", []):
 if "environment" in description:
     scene.world = bpy.data.worlds.new("world")
     scene.world.use_nodes = True
-    scene.world.node_tree.nodes["Background"].inputs[0].default_value = color(description["environment"]["radiance"]) + [1]
+    tree = scene.world.node_tree
+    background = tree.nodes["Background"]
+    if "file" in description["environment"]:
+        # The middle of the picture is -z here and +x in Blender, what is right of it +x here and -y in Blender.
+        direction, parts, place = (tree.nodes.new("ShaderNode" + kind) for kind in ("TexCoord", "SeparateXYZ", "CombineXYZ"))
+        tree.links.new(direction.outputs["Generated"], parts.inputs[0])
+        for source, sign, target in (("Z", -1, "X"), ("X", -1, "Y"), ("Y", 1, "Z")):
+            product = tree.nodes.new("ShaderNodeMath")
+            product.operation, product.inputs[1].default_value = "MULTIPLY", sign
+            tree.links.new(parts.outputs[source], product.inputs[0])
+            tree.links.new(product.outputs[0], place.inputs[target])
+        picture = tree.nodes.new("ShaderNodeTexEnvironment")
+        picture.image = bpy.data.images.load(description["environment"]["file"])
+        tree.links.new(place.outputs[0], picture.inputs["Vector"])
+        tree.links.new(picture.outputs["Color"], background.inputs[0])
+    else:
+        background.inputs[0].default_value = color(description["environment"]["radiance"]) + [1]
 
 row = description["cameras"][0]
 camera = bpy.data.cameras.new("camera")
