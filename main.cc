@@ -16,6 +16,8 @@
 #include "fit/command.h"
 #include "fit/measured/command.h"
 #include "fit/slice/command.h"
+#include "olat/command.h"
+#include "olat/import/command.h"
 #include "render/command/command.h"
 #include "render/cost/command.h"
 #include "render/files/files.h"
@@ -35,6 +37,7 @@ constexpr auto kFooter = R"(Examples
   likeness cost evaluators --out out/cost      what accuracy costs in time, on this machine
   likeness render room.json                    a picture of a scene; Ctrl-C keeps what there is
   likeness cost room.json --out out/room       what each setting of the run-time pipeline costs and gains on a scene
+  likeness olat import photos/                 photographs under one light at a time, to be compared with renders
   likeness plan room.json                      which effects a scene calls for, and why
 
 Exit codes: 0 done, 1 a check said no, 2 usage, 3 a file cannot be used, 4 the program failed.
@@ -116,6 +119,9 @@ int main(int argc, char** argv) try {
   likeness::render_command::add_render(program, exit_code);
   likeness::render_command::add_plan(program, exit_code);
   likeness::mip::add_mip(program, exit_code);
+  CLI::App& olat = likeness::olat::add_olat(program);
+  likeness::olat_import::add_import(olat, exit_code);
+  likeness::olat_import::add_export(olat, exit_code);
   program.footer(kFooter);  // last: a subcommand made after it would repeat it
 
   try {
