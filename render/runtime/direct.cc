@@ -108,12 +108,14 @@ void light(Context& c, const Tile& tile) {
 
 }  // namespace
 
-Pass direct_pass(const plan::Plan&) {
-  return {"direct",
-          "each light of a tile's list, with traced shadows",
-          {Buffer::kSurfaces, Buffer::kTiles, Buffer::kLightLists},
-          {Buffer::kRadiance},
-          [](Context& c) { for_tiles(c.frame, true, [&](Tile& tile) { light(c, tile); }); }};
+Pass direct_pass(const plan::Plan& plan) {
+  Pass pass{"direct",
+            "each light of a tile's list, with traced shadows",
+            {Buffer::kSurfaces, Buffer::kTiles, Buffer::kLightLists},
+            {Buffer::kRadiance},
+            [](Context& c) { for_tiles(c.frame, true, [&](Tile& tile) { light(c, tile); }); }};
+  if (has_textures(plan)) pass.reads.push_back(Buffer::kParameters);
+  return pass;
 }
 
 }  // namespace likeness::runtime

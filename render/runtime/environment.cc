@@ -82,32 +82,35 @@ constexpr int rays_of(EnvironmentLevel level) {
 
 }  // namespace
 
-Pass environment_pass(const plan::Plan&, const Settings& settings) {
+Pass environment_pass(const plan::Plan& plan, const Settings& settings) {
   const bool has_maps = settings.environment == EnvironmentLevel::kMaps;
   const int rays = rays_of(settings.environment);
-  return {"environment",
-          has_maps ? "light of the environment by harmonics and filtered pictures (other models than Callisto: 16 rays)"
-                   : "light of the environment by rays",
-          {Buffer::kSurfaces, Buffer::kTiles},
-          {Buffer::kRadiance},
-          [=](Context& c) {
-            if (!c.world.lights.environment()) return;  // every effect is forced, and there is none
-            const glm::vec3 camera = c.camera.position();
-            for_tiles(c.frame, true, [&](Tile& tile) {
-              surface::Point point;
-              for (int y = tile.y; y < tile.y + tile.height; ++y)
-                for (int x = tile.x; x < tile.x + tile.width; ++x) {
-                  const std::size_t pixel = c.frame.pixel(x, y);
-                  if (!c.frame.cells[pixel].is_surface()) continue;
-                  restore(c, pixel, camera, point);
-                  const bool is_callisto = point.material->is_callisto;
-                  const glm::vec3 light = has_maps && is_callisto ? by_maps(c, point) : by_rays(c, point, pixel, rays);
-                  for (std::size_t k = 0; k < 3; ++k)
-                    c.frame.radiance.rgb[3 * pixel + k] +=
-                        light[static_cast<int>(k)] / static_cast<float>(c.settings.pixel_samples);
-                }
-            });
-          }};
+  Pass pass{
+      "environment",
+      has_maps ? "light of the environment by harmonics and filtered pictures (other models than Callisto: 16 rays)"
+               : "light of the environment by rays",
+      {Buffer::kSurfaces, Buffer::kTiles},
+      {Buffer::kRadiance},
+      [=](Context& c) {
+        if (!c.world.lights.environment()) return;  // every effect is forced, and there is none
+        const glm::vec3 camera = c.camera.position();
+        for_tiles(c.frame, true, [&](Tile& tile) {
+          surface::Point point;
+          for (int y = tile.y; y < tile.y + tile.height; ++y)
+            for (int x = tile.x; x < tile.x + tile.width; ++x) {
+              const std::size_t pixel = c.frame.pixel(x, y);
+              if (!c.frame.cells[pixel].is_surface()) continue;
+              restore(c, pixel, camera, point);
+              const bool is_callisto = point.material->is_callisto;
+              const glm::vec3 light = has_maps && is_callisto ? by_maps(c, point) : by_rays(c, point, pixel, rays);
+              for (std::size_t k = 0; k < 3; ++k)
+                c.frame.radiance.rgb[3 * pixel + k] +=
+                    light[static_cast<int>(k)] / static_cast<float>(c.settings.pixel_samples);
+            }
+        });
+      }};
+  if (has_textures(plan)) pass.reads.push_back(Buffer::kParameters);
+  return pass;
 }
 
 }  // namespace likeness::runtime

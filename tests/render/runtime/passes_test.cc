@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "render/runtime/pipeline.h"
+#include "tests/render/resident.h"
 #include "tests/render/runtime/scenes.h"
 
 namespace likeness::runtime {
@@ -37,6 +38,9 @@ TEST(Passes, ReadOnlyWhatWasWritten) {
   ASSERT_EQ(passes[3].name, "direct");
   std::swap(passes[2], passes[3]);
   EXPECT_EQ(complaint(passes), "pass \"direct\" reads light lists, which no pass before it writes");
+  std::swap(passes[2], passes[3]);
+  passes.erase(passes.begin() + 1);
+  EXPECT_EQ(complaint(passes), "pass \"direct\" reads parameters, which no pass before it writes");
 }
 
 // A light that a tile's list leaves out must not have lit any of its pixels: with and without lists the picture is one.
@@ -109,6 +113,37 @@ TEST(Pipeline, RendersPicturesOfAnySize) {
     EXPECT_EQ(frame.rgb.size(), 3u * static_cast<std::size_t>(width * height));
     EXPECT_GT(*std::max_element(frame.rgb.begin(), frame.rgb.end()), 0);
   }
+}
+
+// The second frame finds the buffers of the first, a third of another size does not.
+TEST(Pipeline, MakesTheSameFrameAgainAndAgain) {
+  scene::Scene s = test::spheres();
+  test::add_light(s, scene::PointLight{{1, 3, 2}, {20, 18, 15}});
+  s.cameras.push_back(test::camera_at({0, 1.5f, 5}, {0, 4, 0}, 35, 50, 30));  // most of it shows nothing
+  s.cameras.push_back(test::camera_at({0, 1.5f, 5}, {0, 4, 0}, 35, 96, 64));
+  const world::World world(s, plan::plan_of(s));
+  const Pipeline pipeline(world);
+  std::vector<image::Picture> first;
+  for (std::size_t camera = 0; camera < 3; ++camera) first.push_back(Pipeline(world).frame(camera, {}));
+  for (const std::size_t camera : {0, 0, 2, 0, 1, 1, 2, 0})
+    EXPECT_EQ(pipeline.frame(camera, {}).rgb, first[camera].rgb) << camera;
+}
+
+TEST(Pipeline, TakesAtMost72BytesAPixel) {
+  if (!likeness::test::kCountsMemory) GTEST_SKIP() << "a sanitizer holds memory of its own";
+  constexpr int kSide = 1024;
+  scene::Scene s = test::spheres();
+  test::add_light(s, scene::PointLight{{1, 3, 2}, {20, 18, 15}});
+  s.cameras.push_back(test::camera_at({0, 1.5f, 5}, {0, 0.7f, 0}, 35, kSide, kSide));
+  const world::World world(s, plan::plan_of(s));
+  const Pipeline pipeline(world);
+  pipeline.frame(0, {});  // threads and their stacks
+  const double before = likeness::test::resident_bytes();
+  const image::Picture picture = pipeline.frame(1, {});
+  const double growth = likeness::test::resident_bytes() - before;
+  constexpr double kLargePages = 2 * 2097152.0;
+  EXPECT_LE(growth, 72.0 * kSide * kSide + kLargePages);
+  EXPECT_GE(growth, 52.0 * kSide * kSide) << "it is not seen by this test";
 }
 
 }  // namespace
