@@ -36,6 +36,12 @@ float cone(const scene::SpotLight& spot, float cosine) {
 
 }  // namespace
 
+bool has_area(const scene::Light& light) {
+  return !std::holds_alternative<scene::PointLight>(light.shape) &&
+         !std::holds_alternative<scene::SpotLight>(light.shape) &&
+         !std::holds_alternative<scene::DirectionalLight>(light.shape);
+}
+
 Lights::Lights(const scene::Scene& scene) : scene_(&scene), emitter_of_(scene.instances.size(), kNotOne) {
   for (const scene::Profile& profile : scene.profiles) largest_candela_.push_back(light::largest_candela(profile));
   if (scene.environment) environment_.emplace(scene, *scene.environment);
@@ -66,6 +72,8 @@ Lights::Lights(const scene::Scene& scene) : scene_(&scene), emitter_of_(scene.in
     emitter_of_[i] = emitters_.size();
     emitters_.push_back(std::move(emitter));
   }
+  reads_point_ =
+      std::any_of(scene.lights.begin(), scene.lights.end(), has_area) || !emitters_.empty() || samples_environment();
 }
 
 float Lights::attenuation(const scene::Light& light, float distance) const {

@@ -43,6 +43,9 @@ struct Emitter {
   bool is_mirrored = false;  // by its instance, so that the order of corners says the other side
 };
 
+// Whether many directions lead to it: the others are points, or infinitely far.
+bool has_area(const scene::Light& light);
+
 class Lights {
  public:
   // Keeps pointers into the scene.
@@ -51,6 +54,9 @@ class Lights {
   // Lights of the scene first, then emitters, then the environment if directions are chosen by it.
   std::size_t count() const { return scene_->lights.size() + emitters_.size() + (samples_environment() ? 1 : 0); }
   bool is_empty() const { return count() == 0; }
+  // Whether sample() reads its numbers at all: `choice` of several lights, `u` of one that has a size.
+  bool reads_choice() const { return count() > 1; }
+  bool reads_point() const { return reads_point_; }
 
   const std::optional<Environment>& environment() const { return environment_; }
   bool samples_environment() const { return environment_ && environment_->has_picture(); }
@@ -92,6 +98,7 @@ class Lights {
   std::vector<Emitter> emitters_;
   std::vector<std::size_t> emitter_of_;  // of each instance; npos: it does not emit
   std::optional<Environment> environment_;
+  bool reads_point_ = false;
 };
 
 }  // namespace likeness::light

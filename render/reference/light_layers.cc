@@ -42,7 +42,7 @@ void add_light_layers(const world::World& world, const Options& options, image::
         for (std::size_t i = 0; i < lights; ++i) {
           const light::Sample light = world.lights.sample_light(i, point.position, samples.next());
           if (!light.is_some()) continue;
-          const glm::vec3 f = point.eval(light.to_light).f_cos * light.value;
+          const glm::vec3 f = point.f_cos(light.to_light) * light.value;
           for (std::size_t k = 0; k < 3; ++k) function[i].data[3 * pixel + k] += f[static_cast<int>(k)];
           const float far = light.distance == ray::kFar ? ray::kFar : light.distance * (1 - 1e-4f);
           const bool is_lit = glm::dot(light.to_light, point.normal) > 0;

@@ -49,7 +49,9 @@ glm::vec3 share_of_diffuse(const surface::Lobes& lobes) {
 template <unsigned kParts>
 glm::vec3 follow(const world::World& world, ray::Ray ray, sampling::Samples& samples, const PathOptions& options,
                  First* first) {
-  constexpr auto kDetail = (kParts & kTextures) != 0 ? surface::Detail::kTextures : surface::Detail::kNone;
+  constexpr auto kDetail = (kParts & kTextures) != 0               ? surface::Detail::kTextures
+                           : (kParts & (kEmission | kLayers)) != 0 ? surface::Detail::kNone
+                                                                   : surface::Detail::kShape;
   const std::size_t instances = world.scene.instances.size();
   Sum<kParts> sum;
   sum.first = first;
@@ -113,14 +115,21 @@ glm::vec3 follow(const world::World& world, ray::Ray ray, sampling::Samples& sam
     if (point.is_black() || bounces >= options.max_bounces) break;
 
     const glm::vec3 position = ray::beside(point.position, point.normal);
-    const glm::vec2 choice = samples.next();
+    const auto next_if = [&](bool is_read) {
+      if (is_read) return samples.next();
+      samples.skip();
+      return glm::vec2(0.5f);
+    };
+    const glm::vec2 choice = next_if(options.reads_choice);
     if constexpr ((kParts & kLights) == 0) {
       samples.skip();  // the numbers after it are those of a plan with lights
     } else {
-      const glm::vec2 u = samples.next();
+      const glm::vec2 u = next_if(options.reads_light_point);
       const light::Sample light = world.lights.sample(point.position, point.shading_normal, choice.x, u);
       if (light.is_some()) {
-        const surface::Value f = point.eval(light.to_light);
+        surface::Value f;
+        if (light.pdf > 0) f = point.eval(light.to_light);
+        else f.f_cos = point.f_cos(light.to_light);
         if (largest(f.f_cos) > 0) {
           // The ends are kept off the surfaces at both: an emissive surface must not shade itself.
           const float far = light.distance == ray::kFar ? ray::kFar : light.distance * (1 - 1e-4f);
@@ -171,6 +180,21 @@ unsigned path_parts(const plan::Plan& plan, bool has_layers) {
   if (any(Effect::kTextures, Effect::kNormalMaps, Effect::kDualNormals)) parts |= kTextures;
   if (has_layers) parts |= kLayers;
   return parts;
+}
+
+PathOptions path_options(const world::World& world, int max_bounces) {
+  const auto chooses_lobe = [](const scene::Material& material) {
+    return std::visit(
+        [](const auto& model) {
+          const brdf::Vec3<double> up{0.0, 0.0, 1.0};
+          const auto lobes = model.lobes(up);
+          return requires { lobes.light(up, 0.0, 0.0, 0.0); };
+        },
+        material.brdf);
+  };
+  const auto& materials = world.scene.materials;
+  return {max_bounces, world.lights.reads_choice() || std::any_of(materials.begin(), materials.end(), chooses_lobe),
+          world.lights.reads_point()};
 }
 
 PathFunction path_function(unsigned parts) { return kFunctions[parts % kPathParts]; }

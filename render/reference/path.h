@@ -37,7 +37,11 @@ struct First {
 
 struct PathOptions {
   int max_bounces = 64;  // of light between camera and source; 1: direct light only
+  // Numbers that nothing in the scene reads are not made; the others stay the same (sampling::Samples::skip).
+  bool reads_choice = true, reads_light_point = true;
 };
+
+PathOptions path_options(const world::World& world, int max_bounces);
 
 // The radiance that arrives along a ray [W/(m^2 sr)]: an estimate. NaN and infinity are passed on.
 using PathFunction = glm::vec3 (*)(const world::World& world, ray::Ray ray, sampling::Samples& samples,

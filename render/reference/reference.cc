@@ -33,7 +33,7 @@ void render(const world::World& world, const Options& options, Film& film,
             const std::function<bool(const Progress&)>& goes_on) {
   const world::Camera camera(world.scene.cameras[options.camera]);
   const PathFunction follow = path_function(path_parts(world.plan, options.has_layers));
-  const PathOptions path{options.max_bounces};
+  const PathOptions path = path_options(world, options.max_bounces);
   const bool has_lens = camera.has_lens();
   const double start = seconds_now();
   std::atomic<bool> is_stopped = false;

@@ -11,10 +11,7 @@ namespace likeness::runtime {
 namespace {
 
 bool has_area(const scene::Scene& scene, std::size_t light) {
-  if (light >= scene.lights.size()) return true;
-  const scene::LightShape& shape = scene.lights[light].shape;
-  return !std::holds_alternative<scene::PointLight>(shape) && !std::holds_alternative<scene::SpotLight>(shape) &&
-         !std::holds_alternative<scene::DirectionalLight>(shape);
+  return light >= scene.lights.size() || light::has_area(scene.lights[light]);  // surfaces that shine follow the lights
 }
 
 // Light that arrives at points of a tile unless it is hidden: up to two directions a point, traced together.
@@ -44,9 +41,11 @@ void add_light_sample(const Context& c, ShadowRays& shadows, std::size_t who, co
                       std::size_t index, const glm::vec2& u, float share) {
   const light::Sample sample = c.world.lights.sample_light(index, point.position, u);
   if (!sample.is_some()) return;
-  const surface::Value f = point.eval(sample.to_light);
   // Surfaces that shine are not found by directions of a surface's own here.
   const bool is_shared = sample.pdf > 0 && index < c.world.scene.lights.size();
+  surface::Value f;
+  if (is_shared) f = point.eval(sample.to_light);
+  else f.f_cos = point.f_cos(sample.to_light);
   shadows.add(who, point, sample.to_light, sample.distance,
               f.f_cos * sample.value * (share * (is_shared ? sampling::power_heuristic(sample.pdf, f.pdf) : 1.0f)));
 }

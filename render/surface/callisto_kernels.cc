@@ -104,6 +104,11 @@ Value eval_dual(const Bound& bound, const glm::vec3& to_light, const glm::vec3& 
   return {pairs.f_cos(model_of<C>(bound), bound.bumps), DualLobes(bound, to_view).density(to_light)};
 }
 
+glm::vec3 f_cos_dual(const Bound& bound, const glm::vec3& to_light, const glm::vec3& to_view) {
+  if (!(to_light.z > 0) || !(to_view.z > 0)) return glm::vec3(0);
+  return Pairs(bound, to_light, to_view).f_cos(model_of<C>(bound), bound.bumps);
+}
+
 Direction sample_dual(const Bound& bound, const glm::vec3& to_view, float choice, const glm::vec2& u) {
   if (!(to_view.z > 0)) return {};
   const DualLobes lobes(bound, to_view);
@@ -128,7 +133,7 @@ Lobes lobes_dual(const Bound& bound, const glm::vec3& to_light, const glm::vec3&
 }  // namespace
 
 Kernel callisto_kernel(unsigned parts, bool has_dual_normals) {
-  if (has_dual_normals) return {&eval_dual, &sample_dual, &lobes_dual, &base_color_of<C>};
+  if (has_dual_normals) return {&eval_dual, &f_cos_dual, &sample_dual, &lobes_dual, &base_color_of<C>};
   return kKernels[parts & C::kAllParts];
 }
 

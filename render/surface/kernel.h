@@ -40,6 +40,8 @@ struct Lobes {
 // Directions are unit, in the local frame, and leave the surface. Never throws.
 struct Kernel {
   Value (*eval)(const Bound& bound, const glm::vec3& to_light, const glm::vec3& to_view) = nullptr;
+  // The first part of eval() alone: for light that no other way of choosing directions finds.
+  glm::vec3 (*f_cos)(const Bound& bound, const glm::vec3& to_light, const glm::vec3& to_view) = nullptr;
   Direction (*sample)(const Bound& bound, const glm::vec3& to_view, float choice, const glm::vec2& u) = nullptr;
   Lobes (*lobes)(const Bound& bound, const glm::vec3& to_light, const glm::vec3& to_view) = nullptr;
   // The model's base_color, or what stands for it (f0): what a picture of the albedo shows.

@@ -41,6 +41,13 @@ Value eval_with(const Bound& bound, const glm::vec3& to_light, const glm::vec3& 
   return {to_glm(How::eval(bound, g)) * g.cos_i, brdf::lobes_pdf(How::lobes(bound, view), g)};
 }
 
+template <class M, class How>
+glm::vec3 f_cos_with(const Bound& bound, const glm::vec3& to_light, const glm::vec3& to_view) {
+  const brdf::Geometry<float> g{brdf::Vec3<float>(to_light), brdf::Vec3<float>(to_view)};
+  if (!g.above) return glm::vec3(0);
+  return to_glm(How::eval(bound, g)) * g.cos_i;
+}
+
 template <class Lobes>
 brdf::Vec3<float> light_of(const Lobes& lobes, const brdf::Vec3<float>& view, float choice, const glm::vec2& u) {
   if constexpr (requires { lobes.light(view, choice, u.x, u.y); }) return lobes.light(view, choice, u.x, u.y);
@@ -91,7 +98,7 @@ glm::vec3 base_color_of(const Bound& bound) {
 
 template <class M, class How>
 constexpr Kernel kernel_with() {
-  return {&eval_with<M, How>, &sample_with<M, How>, &lobes_with<M>, &base_color_of<M>};
+  return {&eval_with<M, How>, &f_cos_with<M, How>, &sample_with<M, How>, &lobes_with<M>, &base_color_of<M>};
 }
 
 }  // namespace likeness::surface

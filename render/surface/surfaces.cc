@@ -121,6 +121,7 @@ glm::vec2 Surfaces::uv_at(scene::Index instance, scene::Index triangle, float u,
   return (1 - u - v) * mesh.uvs[corners[0]] + u * mesh.uvs[corners[1]] + v * mesh.uvs[corners[2]];
 }
 
+template <Detail kDetail>
 glm::vec3 Surfaces::meet(const ray::Ray& ray, const ray::Hit& hit, Point& p) const {
   const Placed& placed = placed_[hit.surface];
   const scene::Mesh& mesh = *placed.mesh;
@@ -132,7 +133,8 @@ glm::vec3 Surfaces::meet(const ray::Ray& ray, const ray::Hit& hit, Point& p) con
     p.normal = glm::normalize(ray.origin + hit.distance * ray.direction - placed.center);
     p.position = placed.center + placed.radius * p.normal;
     normal = p.normal;
-    p.uv = uv_of_sphere(glm::normalize(glm::transpose(placed.world_from_object) * p.normal));
+    if constexpr (kDetail != Detail::kShape)
+      p.uv = uv_of_sphere(glm::normalize(glm::transpose(placed.world_from_object) * p.normal));
   } else {
     const auto& corners = mesh.triangles[hit.triangle];
     const float u = hit.u, v = hit.v, w = 1 - u - v;
@@ -148,8 +150,9 @@ glm::vec3 Surfaces::meet(const ray::Ray& ray, const ray::Hit& hit, Point& p) con
       // The corners' order says nothing that their normals contradict.
       if (glm::dot(normal, p.normal) < 0) p.normal = -p.normal;
     }
-    p.uv = mesh.uvs.empty() ? glm::vec2(0)
-                            : w * mesh.uvs[corners[0]] + u * mesh.uvs[corners[1]] + v * mesh.uvs[corners[2]];
+    if constexpr (kDetail != Detail::kShape)
+      p.uv = mesh.uvs.empty() ? glm::vec2(0)
+                              : w * mesh.uvs[corners[0]] + u * mesh.uvs[corners[1]] + v * mesh.uvs[corners[2]];
   }
   p.is_back = glm::dot(p.normal, to_view) < 0;
   if (p.is_back) p.normal = -p.normal, normal = -normal;
@@ -203,7 +206,7 @@ void Surfaces::dress(const ray::Hit& hit, glm::vec3 normal, const glm::vec3& to_
 
 template <Detail kDetail>
 void Surfaces::at(const ray::Ray& ray, const ray::Hit& hit, Point& p) const {
-  const glm::vec3 normal = meet(ray, hit, p), to_view = -ray.direction;
+  const glm::vec3 normal = meet<kDetail>(ray, hit, p), to_view = -ray.direction;
   if constexpr (kDetail == Detail::kTextures) {
     dress(hit, normal, to_view, AtFullSize{}, p);
   } else {
@@ -213,11 +216,12 @@ void Surfaces::at(const ray::Ray& ray, const ray::Hit& hit, Point& p) const {
 }
 
 void Surfaces::over(const ray::Ray& ray, const ray::Hit& hit, const Pixel& pixel, Point& p) const {
-  const glm::vec3 normal = meet(ray, hit, p);
+  const glm::vec3 normal = meet<Detail::kTextures>(ray, hit, p);
   dress(hit, normal, -ray.direction,
         OverPixel{pixel.levels.of(*p.material), footprint(ray, hit, p, pixel), pixel.filter}, p);
 }
 
+template void Surfaces::at<Detail::kShape>(const ray::Ray&, const ray::Hit&, Point&) const;
 template void Surfaces::at<Detail::kNone>(const ray::Ray&, const ray::Hit&, Point&) const;
 template void Surfaces::at<Detail::kTextures>(const ray::Ray&, const ray::Hit&, Point&) const;
 

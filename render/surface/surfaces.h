@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include <glm/mat3x3.hpp>
@@ -35,6 +36,10 @@ struct Point {
     if (glm::dot(to_light, normal) <= 0) return {};
     return kernel->eval(bound, frame.local(to_light), to_view);
   }
+  glm::vec3 f_cos(const glm::vec3& to_light) const {
+    if (glm::dot(to_light, normal) <= 0) return glm::vec3(0);
+    return kernel->f_cos(bound, frame.local(to_light), to_view);
+  }
   Direction sample(float choice, const glm::vec2& u) const {
     Direction d = kernel->sample(bound, to_view, choice, u);
     d.to_light = frame.world(d.to_light);
@@ -48,7 +53,7 @@ struct Point {
 };
 
 // What may vary over a scene's surfaces; the functions below are compiled for those with and those without.
-enum class Detail : bool { kNone, kTextures };
+enum class Detail : std::uint8_t { kShape, kNone, kTextures };
 
 // The surfaces of a scene. Keeps pointers to what it is made of.
 class Surfaces {
@@ -56,7 +61,7 @@ class Surfaces {
   Surfaces(const scene::Scene& scene, const ray::Tracer& tracer, const std::vector<Prepared>& materials);
 
   // The point that a ray met. `hit` is on an instance, not on a light. kNone: no material has a texture, normal maps and
-  // dual normals included. point.bound may point into `point`: it is not to be copied.
+  // dual normals included; kShape: and nobody reads uv, which is not set. point.bound may point into `point`: it is not to be copied.
   template <Detail kDetail>
   void at(const ray::Ray& ray, const ray::Hit& hit, Point& point) const;
 
@@ -83,6 +88,7 @@ class Surfaces {
     bool is_mirrored;  // the order of corners says the other side
   };
   // Position, geometry and uv; returns the mesh's own normal, on the viewer's side.
+  template <Detail kDetail>
   glm::vec3 meet(const ray::Ray& ray, const ray::Hit& hit, Point& point) const;
   template <class Textures>
   void dress(const ray::Hit& hit, glm::vec3 normal, const glm::vec3& to_view, Textures&& textures, Point& point) const;
