@@ -12,12 +12,11 @@ namespace {
 using Callisto = brdf::Callisto<double>;
 using Node = GltfDocument::Node;
 
-constexpr double kLumensPerWatt = 683;
 constexpr double kDielectricScale = 0.08;  // Callisto's `specular` is f0 over it
 
-class Reader {
+class MaterialReader {
  public:
-  Reader(const GltfDocument& document, const Node& material, Loading& loading)
+  MaterialReader(const GltfDocument& document, const Node& material, Loading& loading)
       : document_(document), node_(material), loading_(loading) {}
 
   Material material() {
@@ -157,7 +156,7 @@ class Reader {
 }  // namespace
 
 Material gltf_material(const GltfDocument& document, const GltfDocument::Node& material, Loading& loading) {
-  return Reader(document, material, loading).material();
+  return MaterialReader(document, material, loading).material();
 }
 
 }  // namespace likeness::scene

@@ -22,6 +22,4 @@ glm::dmat4 place_of(const Fields& fields);
 // Camera to world: looks from `position` along `forward` (unit). Where `up` is along the view, -z is up.
 glm::dmat4 look_along(const glm::dvec3& position, const glm::dvec3& forward, const glm::dvec3& up);
 
-inline constexpr double kLumensPerWatt = 683;  // lm/W at 555 nm, by the definition of the candela
-
 }  // namespace likeness::scene

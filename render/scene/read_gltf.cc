@@ -22,11 +22,9 @@ namespace {
 using files::in_quotes;
 using Node = GltfDocument::Node;
 
-constexpr double kLumensPerWatt = 683;
-
-class Reader {
+class GltfReader {
  public:
-  Reader(const GltfDocument& document, const std::string& part, Loading& loading)
+  GltfReader(const GltfDocument& document, const std::string& part, Loading& loading)
       : document_(document), part_(part), loading_(loading) {}
 
   MeshFile mesh_file() {
@@ -302,7 +300,7 @@ class Reader {
 
 MeshFile gltf_of(std::string_view bytes, const std::filesystem::path& file, const std::string& part, Loading& loading) {
   const GltfDocument document(bytes, file, loading);
-  return Reader(document, part, loading).mesh_file();
+  return GltfReader(document, part, loading).mesh_file();
 }
 
 }  // namespace likeness::scene

@@ -30,9 +30,9 @@ struct Group {
 
 constexpr std::size_t kMostGroups = 100'000;
 
-class Reader {
+class ObjReader {
  public:
-  Reader(std::string_view bytes, const std::filesystem::path& file, const std::string& part, Loading& loading)
+  ObjReader(std::string_view bytes, const std::filesystem::path& file, const std::string& part, Loading& loading)
       : words_(bytes), file_(file), source_(file.string()), part_(part), loading_(loading), is_taken_(part.empty()) {
     group_ = &group_of("");
     for (; !words_.is_at_end(); words_.skip_line()) read_line();
@@ -216,7 +216,7 @@ class Reader {
 }  // namespace
 
 MeshFile obj_of(std::string_view bytes, const std::filesystem::path& file, const std::string& part, Loading& loading) {
-  return Reader(bytes, file, part, loading).mesh_file();
+  return ObjReader(bytes, file, part, loading).mesh_file();
 }
 
 }  // namespace likeness::scene

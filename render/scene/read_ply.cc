@@ -74,9 +74,9 @@ T load(const char* at, bool swap) {
   return std::bit_cast<T>(raw);
 }
 
-class Reader {
+class PlyReader {
  public:
-  Reader(std::string_view bytes, const std::string& source) : bytes_(bytes), source_(source) { read_header(); }
+  PlyReader(std::string_view bytes, const std::string& source) : bytes_(bytes), source_(source) { read_header(); }
 
   Mesh mesh() {
     for (const Element& element : elements_) {
@@ -309,7 +309,7 @@ MeshFile ply_of(std::string_view bytes, const std::filesystem::path& file, const
   const std::string source = file.string();
   if (!part.empty()) throw files::InputError(source + ": has no parts, as PLY files; leave out \"part\"");
   MeshFile out;
-  out.meshes.push_back(Reader(bytes, source).mesh());
+  out.meshes.push_back(PlyReader(bytes, source).mesh());
   out.parts.push_back({"", 0, kNone, glm::dmat4(1)});
   return out;
 }

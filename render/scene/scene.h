@@ -27,6 +27,7 @@ namespace likeness::scene {
 
 using Index = std::uint32_t;
 inline constexpr Index kNone = ~Index{0};
+inline constexpr double kLumensPerWatt = 683;  // at 555 nm, by the definition of the candela
 inline constexpr float kForever = std::numeric_limits<float>::infinity();
 
 // ---- surfaces

@@ -14,10 +14,6 @@
 namespace likeness::measured::test {
 namespace {
 
-void hold(bool promise, const char* text) {
-  if (!promise) throw std::logic_error(text);
-}
-
 std::unique_ptr<Material> parsed(std::string_view format, std::string_view bytes) {
   if (format == "merl") return parse_merl(std::string(bytes), "fuzz", kSmallMerl);
   if (format == "mbsdf") return parse_mbsdf(bytes, "fuzz");

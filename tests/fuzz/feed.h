@@ -1,9 +1,14 @@
 #pragma once
 
+#include <stdexcept>
 #include <string>
 #include <string_view>
 
 namespace likeness::measured::test {
+
+inline void hold(bool promise, const char* text) {
+  if (!promise) throw std::logic_error(text);
+}
 
 // Parses bytes as one format ("merl", "mbsdf", "rgl", "csv") and uses whatever comes out of it. True if it was
 // accepted; throws std::logic_error if a promise of measured.h does not hold. MERL has the small size of the corpus.

@@ -7,15 +7,14 @@
 #include "render/files/files.h"
 #include "render/image/layers.h"
 #include "render/image/read_exr.h"
+#include "tests/fuzz/feed.h"
 
 namespace likeness::image::test {
 namespace {
 
-constexpr std::size_t kMost = 1 << 16;
+using measured::test::hold;
 
-void hold(bool promise, const char* text) {
-  if (!promise) throw std::logic_error(text);
-}
+constexpr std::size_t kMost = 1 << 16;
 
 bool is_accepted(const std::function<void()>& read) {
   try {

@@ -9,14 +9,6 @@
 #include "tests/fuzz/feed.h"
 
 namespace likeness::measured::test {
-namespace {
-
-void hold(bool promise, const char* text) {
-  if (!promise) throw std::logic_error(text);
-}
-
-}  // namespace
-
 bool feed_table(std::string_view bytes) {
   static const catalog::Entry kToy = eval::test::toy();
   try {
