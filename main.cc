@@ -18,6 +18,7 @@
 #include "fit/slice/command.h"
 #include "olat/command.h"
 #include "olat/import/command.h"
+#include "olat/view/command.h"
 #include "render/command/command.h"
 #include "render/cost/command.h"
 #include "render/files/files.h"
@@ -122,6 +123,7 @@ int main(int argc, char** argv) try {
   CLI::App& olat = likeness::olat::add_olat(program);
   likeness::olat_import::add_import(olat, exit_code);
   likeness::olat_import::add_export(olat, exit_code);
+  likeness::olat_view::add_view(olat, exit_code);
   program.footer(kFooter);  // last: a subcommand made after it would repeat it
 
   try {

@@ -1,0 +1,130 @@
+#include "olat/view/command.h"
+
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <thread>
+
+#include <CLI/CLI.hpp>
+
+#include "olat/pair/picture.h"
+#include "olat/pair/state.h"
+#include "olat/view/server.h"
+#include "render/capture/files_of_capture.h"
+#include "render/files/files.h"
+#include "render/files/interrupt.h"
+#include "render/image/write.h"
+
+namespace likeness::olat_view {
+namespace {
+
+struct Request {
+  std::string capture, state, out = "picture.png";
+  int port = 0;
+  double cache_mb = 1024;
+  bool no_scores = false, json = false;
+};
+
+// A state's text, or @FILE with it.
+olat_pair::State state_of(const std::string& text) {
+  constexpr std::size_t kMostBytes = 1 << 16;
+  return olat_pair::state_of(text.starts_with('@') ? files::read_whole(text.substr(1), kMostBytes) : text);
+}
+
+int view(const Request& request) {
+  const olat_pair::State state = state_of(request.state);
+  capture::Capture capture = capture::read_capture(request.capture);
+  olat_pair::place_of(capture, state);
+  ViewOptions options;
+  options.cache_bytes = static_cast<std::size_t>(request.cache_mb * 1e6);
+  options.with_scores = !request.no_scores;
+  Answers answers(std::move(capture), options);
+  Server server(answers, request.port);
+  const std::string address = server.address(olat_pair::text_of(state));
+  if (request.json) std::cout << "{\"address\": \"" << address << "\", \"port\": " << server.port() << "}" << std::endl;
+  else std::cout << address << "\nOpen it in a browser; Ctrl-C ends." << std::endl;
+
+  files::catch_interrupts();
+  std::thread listener([&] { server.run(); });
+  while (!files::interrupted()) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  server.stop();
+  listener.join();
+  return 0;
+}
+
+int picture(const Request& request) {
+  const olat_pair::State state = state_of(request.state);
+  const capture::Capture capture = capture::read_capture(request.capture);
+  const olat_pair::Pair pair = olat_pair::load_pair(capture, state);
+  if (pair.width() == 0)
+    throw files::InputError(request.capture + ": neither photo nor render of this camera and light");
+  const image::DisplayPicture out = olat_pair::picture_of(state, pair);
+  image::write_png(request.out, out);
+  const std::string pipeline = olat_pair::pipeline_of(state);
+  if (request.json)
+    std::cout << "{\"out\": \"" << request.out << "\", \"width\": " << out.width << ", \"height\": " << out.height
+              << ", \"state\": \"" << olat_pair::text_of(state) << "\", \"pipeline\": \"" << pipeline
+              << "\", \"hash\": \"" << olat_pair::hash_of(pipeline) << "\"}\n";
+  else
+    std::cout << "written: " << request.out << " (" << out.width << " x " << out.height << ", pipeline "
+              << olat_pair::hash_of(pipeline) << ")\n";
+  return 0;
+}
+
+std::string keys_of_states() {
+  std::string out = "A state is key=value&key=value, the query of the viewer's address:\n";
+  for (const olat_pair::Field& field : olat_pair::fields()) {
+    std::string words;
+    for (const olat_pair::Choice& c : field.choices) words += (words.empty() ? ": " : ", ") + std::string(c.word);
+    for (const std::string_view name : field.names) words += (words.empty() ? ": " : ", ") + std::string(name);
+    std::string name(field.name);
+    name.resize(std::max<std::size_t>(name.size(), 9), ' ');
+    out += "  " + name + std::string(field.text) + words + "\n";
+  }
+  return out;
+}
+
+}  // namespace
+
+void add_view(CLI::App& olat, int& exit_code) {
+  const auto request = std::make_shared<Request>();
+  CLI::App* app = olat.add_subcommand("view", "A page on which a capture and its renders are compared");
+  app->add_option("CAPTURE", request->capture, "Folder with capture.json")->required();
+  app->add_option("--state", request->state, "What is shown first: a state's text, or @view.json");
+  app->add_option("--port", request->port, "On 127.0.0.1; 0: any that is free")
+      ->check(CLI::Range(0, 65535))
+      ->capture_default_str();
+  app->add_option("--cache-mb", request->cache_mb, "Memory for decoded pictures [MB]")
+      ->check(CLI::Range(1.0, 1e6))
+      ->capture_default_str();
+  app->add_flag("--no-scores", request->no_scores, "Do not compare all pairs in the background");
+  app->add_flag("--json", request->json, "Print address and port as JSON");
+  app->footer(
+      "Photo and render pass one exposure, one view and one display curve, and are flipped, wiped, mixed or "
+      "subtracted\n"
+      "by a key (? lists them). The page is served to this machine only, and needs the token of the printed address; "
+      "from\n"
+      "elsewhere: ssh -L 8080:127.0.0.1:8080 HOST, and --port 8080 there. The capture is only read.\n"
+      "\n"
+      "  likeness olat view captures/cat\n"
+      "  likeness olat view captures/cat --state 'light=012&mode=wipe&view=agx'\n"
+      "\n"
+      "Exit codes: 0 ended by Ctrl-C, 2 usage, 3 a file cannot be used. Manual: docs/olat_view.md");
+  app->callback([request, &exit_code] { exit_code = view(*request); });
+
+  app = olat.add_subcommand("picture", "The picture of a state of the viewer, made without a browser");
+  app->add_option("CAPTURE", request->capture, "Folder with capture.json")->required();
+  app->add_option("--state", request->state, "A state's text, or @view.json");
+  app->add_option("--out", request->out, "PNG to write")->capture_default_str();
+  app->add_flag("--json", request->json, "Print what was written as JSON");
+  app->footer(keys_of_states() +
+              "\n"
+              "  likeness olat picture captures/cat --state 'light=012&mode=difference&metric=stops' --out stops.png\n"
+              "\n"
+              "Exit codes: 0 done, 2 usage, 3 a file cannot be used. Manual: docs/olat_view.md");
+  app->callback([request, &exit_code] { exit_code = picture(*request); });
+}
+
+}  // namespace likeness::olat_view

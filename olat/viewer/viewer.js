@@ -1,0 +1,383 @@
+// The page: one state, one picture, and the parts that show and change it.
+import { tables, takeTables, fieldNamed } from './tables.js';
+import { initialState, stateOf, textOf, pipelineOf, hashOf, kept, numberText } from './state.js';
+import { Painter } from './shader.js';
+import { Pictures, ServerSource } from './pictures.js';
+import { Stage, metricText } from './stage.js';
+import { Sphere } from './sphere.js';
+import { Matrix, colorOf } from './matrix.js';
+import { showProbe, binsOf, showHistogram, showProvenance, showWedge } from './side.js';
+import { Keys, keyOf, makeActions, neighbours, commandOf } from './actions.js';
+import { showHelp, showPalette, keyText } from './dialogs.js';
+import { ReportSource } from './report.js';
+
+const byId = id => document.getElementById(id);
+
+class Viewer {
+  async start() {
+    const report = byId('report');
+    const token = location.hash.slice(1);
+    this.source = report ? new ReportSource(JSON.parse(report.textContent)) : new ServerSource(token);
+    const [capture, lists, shader] = await Promise.all([this.source.capture(), this.source.tables(), this.source.shader()]);
+    takeTables(lists);
+    this.capture = capture;
+    this.keys = new Keys();
+    const canvas = byId('picture');
+    const gl = canvas.getContext('webgl2', { antialias: false, alpha: false, preserveDrawingBuffer: true });
+    if (!gl) throw new Error('this browser has no WebGL 2, which the pictures need');
+    this.painter = new Painter(gl, shader);
+    canvas.addEventListener('webglcontextlost', event => { event.preventDefault(); this.complain('the graphics context was lost: reload the page'); });
+    this.pictures = new Pictures(this.painter, this.source, entry => { if (entry?.error) this.say(entry.error); this.redraw(); });
+    this.pictures.initial = initialState();
+
+    const { state, faults } = stateOf(report ? location.hash.slice(1) : location.search);
+    this.state = state;
+    this.seen = new Set();
+    this.lastSingle = 'photo';
+    if (!location.search && !report) Object.assign(this.state, { ev: kept(capture.pipeline.ev), match: capture.pipeline.match });
+    if (!location.search && fieldNamed('view').words.includes(capture.pipeline.view)) this.state.view = capture.pipeline.view;
+    this.findPlace();
+    this.stage = new Stage(this, canvas, byId('split'), byId('cross'));
+    this.sphere = new Sphere(byId('sphere'), light => this.goto(this.place.camera, light));
+    this.matrix = new Matrix(byId('matrix'), byId('matrix_note'), at => this.goto(at.camera, at.light));
+    this.actions = makeActions(this);
+    this.buildControls();
+    this.bookmarks = this.readBookmarks();
+    document.addEventListener('keydown', event => this.key(event));
+    byId('name').textContent = capture.name || capture.root || 'capture';
+    document.title = (capture.name || 'capture') + ' – Likeness';
+    if (faults.length) this.say('not understood: ' + faults.join(', '));
+    this.change({});
+    this.pollScores();
+    document.body.dataset.ready = '1';
+  }
+
+  // Positions of the state's ids; the first pair that there is for ids that are not.
+  findPlace() {
+    const index = (list, id) => Math.max(0, list.findIndex(item => item.id === id));
+    const { cameras, lights, variants } = this.capture;
+    this.place = { camera: index(cameras, this.state.camera), light: index(lights, this.state.light) };
+    if (!this.has(this.place.camera, this.place.light) && !this.state.light) this.place.light = Math.max(0, this.capture.photos[this.place.camera].indexOf('1'));
+    this.state.camera = cameras[this.place.camera].id;
+    this.state.light = lights[this.place.light].id;
+    if (!variants.includes(this.state.variant)) this.state.variant = variants[0] ?? '';
+  }
+  get camera() { return this.capture.cameras[this.place.camera]; }
+  has(camera, light) { return this.capture.photos[camera]?.[light] === '1'; }
+  stateAt(camera, light) {
+    return { ...this.state, camera: this.capture.cameras[camera].id, light: this.capture.lights[light].id };
+  }
+  // `by` photos further, past what is not there, no further than the last.
+  presentLight(light, by) {
+    const all = this.capture.lights.length, camera = this.place.camera;
+    let left = Math.abs(by), last = light;
+    for (let at = light + Math.sign(by); at >= 0 && at < all && left > 0; at += Math.sign(by))
+      if (this.has(camera, at)) [last, left] = [at, left - 1];
+    return last;
+  }
+  presentCamera(camera, by) {
+    for (let at = camera + by; at >= 0 && at < this.capture.cameras.length; at += by)
+      if (this.capture.photos[at].includes('1')) return at;
+    return camera;
+  }
+  goto(camera, light) {
+    if (!this.has(camera, light)) {
+      const other = this.capture.photos[camera].indexOf('1');
+      if (this.capture.partial) return this.say('this pair is not in the report');
+      if (other >= 0 && camera !== this.place.camera) light = other;
+    }
+    this.change({ camera: this.capture.cameras[camera].id, light: this.capture.lights[light].id });
+  }
+
+  // The only way that the state changes.
+  change(part) {
+    for (const [name, value] of Object.entries(part)) this.state[name] = typeof value === 'number' ? kept(value) : value;
+    if (['photo', 'render'].includes(this.state.mode)) this.lastSingle = this.state.mode;
+    this.findPlace();
+    this.seen.add(this.state.camera + '/' + this.state.light);
+    this.changedAt = performance.now();
+    this.redraw();
+    this.showControls();
+    this.announce(part);
+    clearTimeout(this.remembering);
+    this.remembering = setTimeout(() => this.remember(), 300);
+  }
+  remember() {
+    if (this.capture.partial) return;
+    history.replaceState(null, '', '?' + textOf(this.state) + location.hash);
+  }
+
+  redraw() {
+    if (this.requested || !this.stage) return;
+    this.requested = true;
+    requestAnimationFrame(() => {
+      this.requested = false;
+      this.draw();
+    });
+  }
+  draw() {
+    try {
+      this.complete = this.stage.draw();
+    } catch (error) {
+      return this.complain(error.message);
+    }
+    this.showHud();
+    showWedge(byId('wedge'), this.stage, this.state.ev);
+    this.probe();
+    byId('loading').hidden = this.complete;
+    if (!this.complete) return;
+    this.drawnState = textOf(this.state);
+    clearTimeout(this.later);
+    this.later = setTimeout(() => this.afterwards(), 60);
+  }
+  // What can wait until the picture is there.
+  afterwards() {
+    const { photo, render } = this.stage.shownEntries, ev = this.state.ev;
+    showHistogram(byId('histogram'), photo?.data && binsOf(photo, ev, [1, 1, 1], photo.data), render?.data && binsOf(render, ev, this.stage.pair.gain, photo?.width === render.width ? photo.data : null));
+    this.pictures.prefetch(neighbours(this), this.stage.level());
+    const where = this.state.camera + '/' + this.state.light + '/' + this.state.variant;
+    if (this.framed !== where) {
+      this.framed = where;
+      this.source.frame(textOf({ ...initialState(), camera: this.state.camera, light: this.state.light, variant: this.state.variant }))
+        .then(frame => { if (this.framed === where) showProvenance(byId('provenance'), frame); }, () => {});
+    }
+    this.showMaps();
+  }
+
+  showMaps() {
+    const row = this.scores?.rows?.[this.place.camera] ?? [], { lights } = this.capture;
+    this.sphere.show({
+      lights, axes: this.camera.world_from_camera, current: this.place.light,
+      colors: lights.map((_, i) => colorOf(row[i], this.state.metric)),
+      texts: lights.map((_, i) => (row[i] === null || row[i] === undefined ? '' : `${this.state.metric} ${row[i]}`)),
+      present: [...this.capture.photos[this.place.camera]].map(flag => flag === '1'),
+    });
+    this.matrix.show({ capture: this.capture, scores: this.scores, camera: this.place.camera, light: this.place.light });
+  }
+
+  async pollScores() {
+    clearTimeout(this.polling);
+    const asked = this.state.metric + this.state.variant;
+    try {
+      const found = await this.source.scores(this.state.metric, this.state.variant, this.state.camera);
+      if (asked === this.state.metric + this.state.variant) this.scores = found;
+      byId('lost').hidden = true;
+    } catch (error) {
+      if (!error.status) byId('lost').hidden = false;
+    }
+    this.scoresOf = asked;
+    this.showMaps();
+    const done = this.scores && this.scores.known >= this.scores.all;
+    if (!this.capture.partial) this.polling = setTimeout(() => this.pollScores(), done ? 10000 : 1000);
+  }
+
+  // Tags over the picture: what each pane is, and the pipeline that it passed.
+  showHud() {
+    const { state } = this, gain = this.stage.pair.gain, hash = hashOf(pipelineOf(state));
+    const absent = kind => this.stage.shownEntries[kind]?.absent;
+    const tag = (id, text, kinds) => {
+      const lost = kinds.filter(absent);
+      byId(id).querySelector('b').textContent = text;
+      byId(id).querySelector('code').textContent = hash;
+      byId(id).querySelector('i').textContent = lost.length ? `no ${lost.join(', no ')}` : '';
+      byId(id).dataset.hash = hash;
+    };
+    const names = { photo: ['PHOTO', ['photo']], render: ['RENDER', ['render']], wipe: ['PHOTO', ['photo']], side: ['PHOTO', ['photo']], onion: ['PHOTO + RENDER', ['photo', 'render']], difference: ['PHOTO − RENDER', ['photo', 'render']] };
+    tag('tag_left', ...names[state.mode]);
+    tag('tag_right', 'RENDER', ['render']);
+    byId('tag_right').hidden = !['wipe', 'side'].includes(state.mode);
+    byId('alarm').hidden = byId('tag_left').dataset.hash === byId('tag_right').dataset.hash;
+    const stops = gain.map(v => Math.log2(v)), text = v => (v >= 0 ? '+' : '−') + Math.abs(v).toFixed(2);
+    byId('hud').textContent = [
+      `EV ${text(state.ev)}`,
+      'match ' + state.match + (state.match === 'none' ? '' : ' ' + (state.match === 'channel' ? stops.map(text).join(' ') : text(stops[1])) + ' stops'),
+      'view ' + state.view,
+      state.mode === 'difference' ? metricText(state, this.stage.pair.noise) : '',
+      state.channel === 'color' ? '' : state.channel,
+      `${Math.round(100 * this.stage.window.zoom)} %`,
+    ].filter(Boolean).join('   ');
+  }
+
+  probe() {
+    cancelAnimationFrame(this.probing);
+    this.probing = requestAnimationFrame(() => showProbe(byId('probe'), this.stage.values(), this.state.ev));
+  }
+
+  // --- controls ---------------------------------------------------------------------------------------------------
+  buildControls() {
+    const root = byId('controls');
+    for (const name of ['mode', 'metric', 'view', 'match', 'channel', 'overlay']) {
+      const field = fieldNamed(name), select = byId('c_' + name);
+      field.words.forEach((word, i) => {
+        const option = new Option(word.replace('_', ' '), word);
+        option.title = field.texts?.[i] ?? '';
+        select.append(option);
+      });
+      select.addEventListener('change', () => this.change({ [name]: select.value }));
+    }
+    for (const [name, list] of [['camera', this.capture.cameras], ['light', this.capture.lights]]) {
+      const select = byId('c_' + name);
+      list.forEach(item => select.append(new Option(item.label ? `${item.id} – ${item.label}` : item.id, item.id)));
+      select.addEventListener('change', () => this.change({ [name]: select.value }));
+    }
+    const variants = byId('c_variant');
+    this.capture.variants.forEach(id => variants.append(new Option(id, id)));
+    variants.addEventListener('change', () => this.change({ variant: variants.value }));
+    variants.closest('label').hidden = this.capture.variants.length < 2;
+    const number = (id, name) => byId(id).addEventListener('input', event => {
+      const value = Number(event.target.value), [low, high] = fieldNamed(name).range;
+      if (event.target.value !== '' && value >= low && value <= high) this.change({ [name]: value });
+    });
+    for (const name of ['ev', 'split', 'mix', 'range']) number('c_' + name, name);
+    for (const name of ['zebra', 'wedge']) byId('c_' + name).addEventListener('change', event => this.change({ [name]: event.target.checked }));
+    const gt = byId('gt');
+    for (const field of tables.fields.filter(f => f.view === 'gt')) {
+      const label = document.createElement('label'), input = document.createElement('input'), text = document.createElement('span');
+      Object.assign(input, { type: 'range', min: field.range[0], max: Math.min(field.range[1], field.name === 'gt_P' ? 10 : 3), step: 0.01, id: 'c_' + field.name });
+      label.title = field.text;
+      text.textContent = field.name.slice(3);
+      label.append(text, input, document.createElement('output'));
+      gt.append(label);
+      number(input.id, field.name);
+    }
+    root.addEventListener('keydown', event => { if (event.key === 'Escape') byId('picture').focus(); });
+    for (const button of document.querySelectorAll('button[data-action]')) {
+      const action = tables.actions.find(a => a.id === button.dataset.action);
+      button.title = `${action.text} (${keyText(this.keys.of(action)[0])})`;
+      button.setAttribute('aria-label', action.text);
+      button.addEventListener('click', () => this.run(action.id));
+    }
+  }
+  showControls() {
+    const { state } = this;
+    for (const name of ['camera', 'light', 'variant', 'mode', 'metric', 'view', 'match', 'channel', 'overlay']) byId('c_' + name).value = state[name];
+    for (const name of ['ev', 'split', 'mix', 'range', ...tables.fields.filter(f => f.view === 'gt').map(f => f.name)]) {
+      const input = byId('c_' + name);
+      if (document.activeElement !== input || input.type === 'range') input.value = numberText(state[name]);
+      const output = input.parentElement.querySelector('output');
+      if (output) output.textContent = numberText(state[name]);
+    }
+    for (const name of ['zebra', 'wedge']) byId('c_' + name).checked = state[name];
+    byId('gt').hidden = state.view !== 'gt';
+    byId('row_split').hidden = state.mode !== 'wipe';
+    byId('row_mix').hidden = state.mode !== 'onion';
+    byId('row_range').hidden = state.mode !== 'difference';
+    for (const button of document.querySelectorAll('button[data-mode]')) button.setAttribute('aria-pressed', button.dataset.mode === state.mode);
+    if (this.scoresOf && this.scoresOf !== state.metric + state.variant) this.pollScores();
+  }
+
+  // --- words ------------------------------------------------------------------------------------------------------
+  // For who hears the page: what changed, or where it is.
+  announce(part) {
+    const names = Object.keys(part), { state } = this;
+    if (names.some(name => ['camera', 'light'].includes(name))) {
+      const value = this.scores?.rows?.[this.place.camera]?.[this.place.light];
+      this.tell(`camera ${state.camera}, light ${state.light}, ${state.mode}` + (value === null || value === undefined ? '' : `, ${state.metric} ${value}`));
+    } else if (names.length) {
+      this.tell(names.map(name => `${name} ${fieldNamed(name)?.kind === 'number' ? numberText(state[name]) : state[name]}`).join(', '));
+    }
+  }
+  tell(text) { byId('live').textContent = text; }
+  say(text) {
+    this.tell(text);
+    const toast = byId('toast');
+    toast.textContent = text;
+    toast.hidden = false;
+    clearTimeout(this.toasting);
+    this.toasting = setTimeout(() => { toast.hidden = true; }, 4000);
+  }
+  complain(text) {
+    byId('fault').textContent = text;
+    byId('fault').hidden = false;
+  }
+
+  // --- actions ----------------------------------------------------------------------------------------------------
+  key(event) {
+    if (this.taking) {
+      if (['Shift', 'Control', 'Alt', 'Meta'].includes(event.key)) return;
+      event.preventDefault();
+      return this.taking(keyOf(event));
+    }
+    const target = event.target, typing = target.matches?.('input:not([type=range]):not([type=checkbox]), textarea');
+    const steering = target.matches?.('select, input[type=range]') && /^(Arrow|Home|End|Page|[a-z0-9 ]$)/i.test(event.key);
+    const pressing = target.matches?.('button, summary, input[type=checkbox], a') && [' ', 'Enter'].includes(event.key);
+    if (byId('dialog').open || typing || steering || pressing || event.altKey) return;
+    const key = keyOf(event), action = this.keys.actionOf(key);
+    if (!action) return;
+    event.preventDefault();
+    this.run(action.id, key);
+  }
+  run(id, key = '1') {
+    if (id !== 'auto_flip') this.stopFlip();
+    this.actions[id](key);
+  }
+  autoFlip() {
+    if (this.flipping) return this.stopFlip();
+    if (matchMedia('(prefers-reduced-motion: reduce)').matches) return this.say('not by itself: your system asks for less motion. Space flips.');
+    this.flipping = setInterval(() => this.actions.flip(), 1000);
+    this.say('flips once a second; any key stops');
+  }
+  stopFlip() {
+    clearInterval(this.flipping);
+    this.flipping = null;
+  }
+  gotoWorst() {
+    const next = this.matrix.worst().find(at => this.has(at.camera, at.light) && !this.seen.has(this.capture.cameras[at.camera].id + '/' + this.capture.lights[at.light].id));
+    if (next) this.goto(next.camera, next.light);
+    else this.say(this.scores?.rows ? 'every pair that is compared has been seen' : 'no pairs are compared yet');
+  }
+  bookmarkKey() { return 'likeness-bookmarks ' + (this.capture.root ?? this.capture.name); }
+  readBookmarks() {
+    try { return JSON.parse(localStorage.getItem(this.bookmarkKey()) ?? '{}'); } catch { return {}; }
+  }
+  store(key) {
+    this.bookmarks[key] = textOf(this.state);
+    try { localStorage.setItem(this.bookmarkKey(), JSON.stringify(this.bookmarks)); } catch { /* private window */ }
+    this.say(`bookmark ${key}: ${this.state.camera}, ${this.state.light}, ${this.state.mode}`);
+  }
+  recall(key) {
+    if (!this.bookmarks[key]) return this.say(`bookmark ${key} is empty; Ctrl ${key} keeps this state`);
+    this.change(stateOf(this.bookmarks[key]).state);
+  }
+  async copyCommand() {
+    const text = commandOf(this);
+    try {
+      await navigator.clipboard.writeText(text);
+      this.say('copied: ' + text);
+    } catch {
+      this.say(text);
+    }
+  }
+  saveView() {
+    const link = document.createElement('a');
+    link.href = URL.createObjectURL(new Blob([JSON.stringify(Object.fromEntries(textOf(this.state).split('&').filter(Boolean).map(p => p.split('=').map(decodeURIComponent))), null, 1) + '\n'], { type: 'application/json' }));
+    link.download = 'view.json';
+    link.click();
+    setTimeout(() => URL.revokeObjectURL(link.href), 1000);
+  }
+  togglePanels() {
+    document.body.classList.toggle('bare');
+    this.redraw();
+    this.showMaps();
+  }
+  help() { showHelp(this, byId('dialog')); }
+  palette() { showPalette(this, byId('dialog')); }
+  // The state of a text, its text again, and the pipeline's digits.
+  parse(text) { return stateOf(text).state; }
+  text() { return textOf(this.state); }
+  textAgain(text) { return textOf(stateOf(text).state); }
+  hashOfText(text) { return hashOf(pipelineOf(stateOf(text).state)); }
+  close() {
+    if (byId('dialog').open) byId('dialog').close();
+    else if (this.stage.pinned) this.stage.pin();
+    else byId('picture').focus();
+  }
+}
+
+const likeness = new Viewer();
+window.likeness = likeness;
+likeness.start().catch(error => {
+  const fault = byId('fault');
+  fault.textContent = error.status === 403 ? 'The token is missing or wrong. Open the address that the program printed.' : error.message;
+  fault.hidden = false;
+});

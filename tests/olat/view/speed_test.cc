@@ -1,0 +1,146 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "render/capture/files_of_capture.h"
+#include "tests/olat/small_capture.h"
+#include "tests/olat/view/browser.h"
+#include "tests/olat/view/served.h"
+#include "tests/render/temporary_folder.h"
+
+// How long a user waits: from a real key press to the drawn frame, with software GL. The bars stand in docs/olat_view.md;
+// here they are three times as wide, since a test machine does other things too.
+namespace likeness::olat_view {
+namespace {
+
+using test::Browser;
+constexpr double kPatience = 3;
+
+// From now on the page notes, for each key press, the milliseconds until the complete frame is drawn: rendered, not only
+// asked for, since a pixel of it is read back.
+constexpr const char* kStopwatch = R"js(
+  window.times = []; window.pressed = 0;
+  document.addEventListener('keydown', e => { window.pressed = e.timeStamp; }, true);
+  const draw = likeness.draw.bind(likeness), gl = likeness.painter.gl;
+  likeness.draw = () => {
+    draw();
+    if (!likeness.complete || !window.pressed) return;
+    gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
+    window.times.push(performance.now() - window.pressed);
+    window.pressed = 0;
+  })js";
+
+std::vector<double> times_of(Browser& browser) {
+  std::string text = browser.evaluate("window.times.splice(0).join(' ')");
+  std::istringstream in(text.substr(1, text.size() - 2));
+  std::vector<double> out;
+  for (double t; in >> t;) out.push_back(t);
+  std::sort(out.begin(), out.end());
+  return out;
+}
+double quantile(const std::vector<double>& sorted, double share) {
+  return sorted.empty() ? 1e9 : sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1) + 0.5)];
+}
+
+TEST(Speed, OfALightSwitchIsThatOfAnEye) {
+  if (Browser::program().empty()) GTEST_SKIP() << "no Chromium: ./bootstrap test installs it";
+  const test::TemporaryFolder folder;
+  test::SmallCapture want;
+  want.cameras = 1;
+  want.lights = 8;
+  want.width = 2048;
+  want.height = 2048;
+  want.with_mask = false;
+  test::Served served(test::write_small_capture(folder.path(), want), {.with_scores = false});
+  Browser browser(1280, 720);
+  browser.open(served.address("light=l0"));
+  ASSERT_TRUE(browser.wait("document.body.dataset.ready && likeness.complete", 30));
+  browser.evaluate(kStopwatch);
+
+  // Cold: six lights on, past what is fetched ahead of time.
+  browser.press("Shift+ArrowRight");
+  ASSERT_TRUE(browser.wait("window.times.length", 20));
+  const double cold = times_of(browser)[0];
+
+  // Warm: among the last lights, which have all been seen.
+  for (int i = 0; i < 5; ++i) {
+    browser.press("ArrowLeft");
+    ASSERT_TRUE(browser.wait("likeness.complete && window.times.length === " + std::to_string(i + 1), 20));
+  }
+  times_of(browser);
+  for (int i = 0; i < 40; ++i) {
+    browser.press(i / 4 % 2 == 0 ? "ArrowRight" : "ArrowLeft");
+    ASSERT_TRUE(browser.wait("window.times.length === " + std::to_string(i + 1), 20));
+  }
+  const auto warm = times_of(browser);
+  for (int i = 0; i < 20; ++i) {
+    browser.press("Space");
+    ASSERT_TRUE(browser.wait("window.times.length === " + std::to_string(i + 1), 20));
+  }
+  const auto flip = times_of(browser);
+  std::printf(
+      "2048 x 2048, window 1280 x 720: cold %.0f ms; warm light p50 %.0f p95 %.0f ms; flip p50 %.0f p95 %.0f ms\n",
+      cold, quantile(warm, 0.5), quantile(warm, 0.95), quantile(flip, 0.5), quantile(flip, 0.95));
+  EXPECT_LE(quantile(warm, 0.95), kPatience * 100);
+  EXPECT_LE(quantile(flip, 0.95), kPatience * 100);
+  EXPECT_LE(cold, kPatience * 500);
+  EXPECT_EQ(browser.faults(), "");
+}
+
+// The four files of a capture of 40 cameras and 331 lights, whose pictures do not exist: nothing may open one.
+TEST(Speed, OfOpeningALargeCaptureDoesNotDependOnItsPictures) {
+  const test::TemporaryFolder folder;
+  capture::Capture capture;
+  capture.root = folder.path();
+  capture.name = "large";
+  for (int c = 0; c < 40; ++c) {
+    capture::Camera camera;
+    camera.id = "c" + std::to_string(c);
+    camera.width = camera.height = 2048;
+    camera.intrinsics = {2000, 0, 0, 0, 2000, 0, 1024, 1024, 1};
+    capture.cameras.push_back(camera);
+  }
+  for (int l = 0; l < 331; ++l) {
+    capture::Light light;
+    light.id = "l" + std::to_string(l);
+    light.place = capture::DistantLight{{0, 0, 1}};
+    capture.lights.push_back(light);
+  }
+  for (std::size_t c = 0; c < 40; ++c)
+    for (std::size_t l = 0; l < 331; ++l) {
+      capture::Frame frame;
+      frame.camera = c;
+      frame.light = l;
+      frame.file = "photos/c" + std::to_string(c) + "/l" + std::to_string(l) + ".exr";
+      capture.frames.push_back(frame);
+    }
+  capture.variants.push_back({"v", "renders/v/{camera}/{light}.exr"});
+  capture::write_capture(capture);
+
+  const auto began = std::chrono::steady_clock::now();
+  test::Served served(capture::read_capture(folder.path()));
+  const Answer answer = served.answers().answer("/api/capture", {});
+  const double opened = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+  EXPECT_EQ(answer.status, 200);
+  EXPECT_LE(opened, 2);
+  double page = -1;
+  if (!Browser::program().empty()) {
+    Browser browser(1280, 720);
+    browser.open(served.address());
+    ASSERT_TRUE(browser.wait("document.body.dataset.ready", 20));
+    page = std::stod(browser.evaluate("performance.now()")) / 1000;
+    EXPECT_EQ(browser.evaluate("document.querySelectorAll('#sphere .dot').length || (likeness.showMaps(), "
+                               "document.querySelectorAll('#sphere .dot').length)"),
+              "331");
+    EXPECT_LE(page, kPatience * 2);
+  }
+  std::printf("40 cameras x 331 lights: read and answered in %.2f s, page ready after %.2f s\n", opened, page);
+}
+
+}  // namespace
+}  // namespace likeness::olat_view
