@@ -16,7 +16,10 @@
 #include "fit/command.h"
 #include "fit/measured/command.h"
 #include "fit/slice/command.h"
+#include "olat/calibrate/command.h"
+#include "olat/check/command.h"
 #include "olat/command.h"
+#include "olat/compare/command.h"
 #include "olat/import/command.h"
 #include "olat/view/command.h"
 #include "render/command/command.h"
@@ -123,6 +126,9 @@ int main(int argc, char** argv) try {
   CLI::App& olat = likeness::olat::add_olat(program);
   likeness::olat_import::add_import(olat, exit_code);
   likeness::olat_import::add_export(olat, exit_code);
+  likeness::olat_calibrate::add_calibrate(olat, exit_code);
+  likeness::olat_check::add_check(olat, exit_code);
+  likeness::olat_compare::add_compare(olat, exit_code);
   likeness::olat_view::add_view(olat, exit_code);
   program.footer(kFooter);  // last: a subcommand made after it would repeat it
 
