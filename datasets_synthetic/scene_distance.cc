@@ -35,9 +35,9 @@ void make_distance(const SceneOptions& options, SceneFiles& files) {
   files.add_camera({{"name", "front"},
                     {"width", options.width},
                     {"height", options.height},
-                    {"position", {0, 1.5, 3}},
-                    {"target", {0, 0.55, -6}},
-                    {"fov_deg", 36}});
+                    {"position", {0, 2.2, 5}},
+                    {"target", {0, 0.2, -4}},
+                    {"fov_deg", 32}});
   files.add_shape("sphere", {{"shape", "sphere"}});
   files.add_shape("plane", {{"shape", "plane"}});
 
@@ -76,9 +76,8 @@ void make_distance(const SceneOptions& options, SceneFiles& files) {
                          {{"scale", 0.5}, {"translate", {1.2 * (column - 1), 0.5, std::round(100 * z) / 100}}});
 
   // Low and from the side, so that bumps have lit and dark sides.
-  files.add_light(
-      {{"type", "directional"}, {"name", "sun"}, {"direction", {-0.75, -0.45, -0.5}}, {"unit", "W"}, {"strength", 4}});
-  files.set_environment({{"radiance", {0.12, 0.14, 0.18}}});
+  files.add_light({{"type", "directional"}, {"name", "sun"}, {"direction", {-0.75, -0.45, -0.5}}, {"strength", 5}});
+  files.set_environment({{"radiance", {0.06, 0.07, 0.09}}});
 }
 
 }  // namespace likeness::datasets_synthetic
