@@ -255,6 +255,7 @@ float Lights::probability(std::size_t index, const glm::vec3& point, const glm::
 }
 
 Sample Lights::sample(const glm::vec3& point, const glm::vec3& normal, float choice, const glm::vec2& u) const {
+  if (!reads_choice()) return is_empty() ? Sample{} : sample_light(0, point, u);
   float p = 1;
   const std::size_t index = choose(point, normal, choice, p);
   if (index == kNotOne || !(p > 0)) return {};

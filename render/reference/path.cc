@@ -48,7 +48,7 @@ glm::vec3 share_of_diffuse(const surface::Lobes& lobes) {
 
 template <unsigned kParts>
 glm::vec3 follow(const world::World& world, ray::Ray ray, sampling::Samples& samples, const PathOptions& options,
-                 First* first) {
+                 surface::Point& point, First* first) {
   constexpr auto kDetail = (kParts & kTextures) != 0               ? surface::Detail::kTextures
                            : (kParts & (kEmission | kLayers)) != 0 ? surface::Detail::kNone
                                                                    : surface::Detail::kShape;
@@ -58,7 +58,6 @@ glm::vec3 follow(const world::World& world, ray::Ray ray, sampling::Samples& sam
   glm::vec3 throughput(1);
   float pdf = 0;  // of the ray's direction, by the surface that it left; 0: the camera's, or nothing else finds it
   glm::vec3 from(0), from_normal(0);
-  surface::Point point;
 
   for (int bounces = 0;; ++bounces) {
     ray::Hit hit = world.tracer.closest(ray);

@@ -43,9 +43,10 @@ struct PathOptions {
 
 PathOptions path_options(const world::World& world, int max_bounces);
 
-// The radiance that arrives along a ray [W/(m^2 sr)]: an estimate. NaN and infinity are passed on.
+// The radiance that arrives along a ray [W/(m^2 sr)]: an estimate. NaN and infinity are passed on. `point` is where the
+// path keeps the surface that it is at: one for many paths, because making one costs as much as a hundredth of a path.
 using PathFunction = glm::vec3 (*)(const world::World& world, ray::Ray ray, sampling::Samples& samples,
-                                   const PathOptions& options, First* first);
+                                   const PathOptions& options, surface::Point& point, First* first);
 PathFunction path_function(unsigned parts);
 
 }  // namespace likeness::reference

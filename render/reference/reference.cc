@@ -53,6 +53,8 @@ void render(const world::World& world, const Options& options, Film& film,
     const std::uint32_t size = std::clamp(progress.samples, 1u, kMostInAPass);
     const std::uint32_t end = std::min(options.samples, progress.samples + size);
     const auto tile = [&](const tbb::blocked_range2d<int>& pixels) {
+      surface::Point point;
+      First first;
       for (int y = pixels.rows().begin(); y < pixels.rows().end(); ++y)
         for (int x = pixels.cols().begin(); x < pixels.cols().end(); ++x) {
           const auto pixel =
@@ -61,9 +63,9 @@ void render(const world::World& world, const Options& options, Film& film,
             sampling::Samples samples(static_cast<std::uint32_t>(pixel), sample, options.seed);
             const glm::vec2 in_pixel = samples.next();
             const glm::vec2 on_lens = has_lens ? samples.next() : glm::vec2(0.5f);
-            First first;
+            if (options.has_layers) first = {};
             const glm::vec3 radiance =
-                follow(world, camera.ray(glm::vec2(x, y) + in_pixel, on_lens), samples, path, &first);
+                follow(world, camera.ray(glm::vec2(x, y) + in_pixel, on_lens), samples, path, point, &first);
             film.add(pixel, radiance, options.has_layers ? &first : nullptr);
           }
         }

@@ -57,8 +57,8 @@ class Samples {
   Samples(std::uint32_t pixel, std::uint32_t index, std::uint32_t seed)
       : seed_(mixed(pixel, seed)), index_(reversed_bits(index)) {}
 
-  // In [0, 1)^2.
-  glm::vec2 next() {
+  // In [0, 1)^2. Always inlined: several of them overlap, and calls would keep them apart.
+  [[gnu::always_inline]] glm::vec2 next() {
     const std::uint32_t seed = mixed(seed_, pair_++);
     const std::uint32_t index = reversed_bits(owen_of_reversed(index_, seed));
     const std::uint32_t x = owen_of_reversed(index, mixed(seed + 1));

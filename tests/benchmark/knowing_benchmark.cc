@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <ctime>
 #include <functional>
@@ -16,7 +17,8 @@
 #include "tests/benchmark/lean.h"
 
 // What it costs to know more than a scene needs: the path tracer beside one that was compiled for nothing but the
-// scene's model and light (lean.h), on one thread, in turn.
+// scene's model and light (lean.h), on one thread, in turn. InRooms: its surfaces, its light and its model are functions
+// that are called, as ours are; Inlined: all of it is one function.
 //
 //     render_benchmark --benchmark_filter=Knowing
 //
@@ -25,6 +27,9 @@
 // pictures over the mean; they are the same work only if it is 0 or nearly so.
 namespace likeness {
 namespace {
+
+constexpr std::array<std::uint32_t, 3> kPasses{1, 2,
+                                               4};  // samples that a pixel has after each, as in reference::render()
 
 // Instructions that this thread executes outside the kernel.
 class Instructions {
@@ -63,12 +68,11 @@ double quantile(std::vector<double> values, double share) {
 void compare(benchmark::State& state, const scene::Scene& scene, const world::World& world,
              const std::function<void(reference::Film&)>& lean) {
   constexpr int kRounds = 15;
-  constexpr std::uint32_t kSamples = 4;
   const scene::Camera& camera = scene.cameras[0];
   const Instructions instructions;
   const auto full = [&](reference::Film& film) {
     reference::Options options;
-    options.samples = kSamples, options.threads = 1;
+    options.samples = kPasses.back(), options.threads = 1;
     reference::render(world, options, film, [](const auto&) { return true; });
   };
   struct Cost {
@@ -107,6 +111,7 @@ void compare(benchmark::State& state, const scene::Scene& scene, const world::Wo
   }
 }
 
+template <template <class> class How>
 void KnowingLambertAndPointLight(benchmark::State& state) {
   scene::Scene scene = benchmark_scene::bumpy();
   scene.cameras[0] = runtime::test::camera_at({0, 1.2f, 4}, {0, 0.4f, 0}, 45, 256, 256);
@@ -115,10 +120,14 @@ void KnowingLambertAndPointLight(benchmark::State& state) {
   const auto& light = std::get<scene::PointLight>(scene.lights[0].shape);
   const lean::TrianglesAndPointLight only{scene, world.tracer, light.position, light.intensity};
   const world::Camera camera(scene.cameras[0]);
-  compare(state, scene, world, [&](reference::Film& film) { lean::render(only, {}, camera, 4, film); });
+  compare(state, scene, world, [&](reference::Film& film) {
+    for (const std::uint32_t end : kPasses) lean::render<How>(only, {}, camera, end, film);
+  });
 }
-BENCHMARK(KnowingLambertAndPointLight)->Iterations(1)->Unit(benchmark::kSecond);
+BENCHMARK_TEMPLATE(KnowingLambertAndPointLight, lean::InRooms)->Iterations(1)->Unit(benchmark::kSecond);
+BENCHMARK_TEMPLATE(KnowingLambertAndPointLight, lean::Inlined)->Iterations(1)->Unit(benchmark::kSecond);
 
+template <template <class> class How>
 void KnowingGgxAndEnvironment(benchmark::State& state) {
   scene::Scene scene;
   scene.cameras.push_back(runtime::test::camera_at({0, 0, 4}, {0, 0, 0}, 35, 256, 256));
@@ -132,9 +141,12 @@ void KnowingGgxAndEnvironment(benchmark::State& state) {
   brdf::Ggx<float> model;
   model.roughness = 0.4f;
   const world::Camera camera(scene.cameras[0]);
-  compare(state, scene, world, [&](reference::Film& film) { lean::render(only, model, camera, 4, film); });
+  compare(state, scene, world, [&](reference::Film& film) {
+    for (const std::uint32_t end : kPasses) lean::render<How>(only, model, camera, end, film);
+  });
 }
-BENCHMARK(KnowingGgxAndEnvironment)->Iterations(1)->Unit(benchmark::kSecond);
+BENCHMARK_TEMPLATE(KnowingGgxAndEnvironment, lean::InRooms)->Iterations(1)->Unit(benchmark::kSecond);
+BENCHMARK_TEMPLATE(KnowingGgxAndEnvironment, lean::Inlined)->Iterations(1)->Unit(benchmark::kSecond);
 
 }  // namespace
 }  // namespace likeness

@@ -78,42 +78,94 @@ struct SphereAndEnvironment {
   glm::vec3 environment() const { return radiance; }
 };
 
+// What a path needs of a point that it met.
+struct Point {
+  glm::vec3 at, normal, to_view;  // the latter in the frame
+  ray::Frame frame;
+};
+// What light arrives at it, unless it is hidden, and what it sends on.
+struct Arriving {
+  glm::vec3 to_light, sent;
+  float distance;
+};
+
 template <class World>
-glm::vec3 follow(const World& world, const typename World::Model& model, ray::Ray ray, sampling::Samples& samples) {
+bool meet(const World& world, const ray::Ray& ray, const ray::Hit& hit, Point& p) {
+  if (!world.surface(ray, hit, p.at, p.normal)) return false;
+  const glm::vec3 to_view = -ray.direction;
+  p.frame = ray::Frame(facing(p.normal, to_view, p.normal));
+  p.to_view = p.frame.local(to_view);
+  return true;
+}
+template <class World>
+Arriving light_at(const World& world, const glm::vec3& at) {
+  const glm::vec3 way = world.position - at;
+  const float distance2 = glm::dot(way, way), distance = std::sqrt(distance2);
+  return {way / distance, world.intensity / distance2, distance};
+}
+template <class World>
+glm::vec3 f_cos(const surface::Bound& bound, const Point& p, const glm::vec3& to_light) {
+  if (glm::dot(to_light, p.normal) <= 0) return glm::vec3(0);
+  return surface::f_cos_with<typename World::Model, surface::Whole<typename World::Model>>(
+      bound, p.frame.local(to_light), p.to_view);
+}
+template <class World>
+surface::Direction sample(const surface::Bound& bound, const Point& p, float choice, const glm::vec2& u) {
   using How = surface::Whole<typename World::Model>;
+  surface::Direction next = surface::sample_with<typename World::Model, How>(bound, p.to_view, choice, u);
+  next.to_light = p.frame.world(next.to_light);
+  if (glm::dot(next.to_light, p.normal) <= 0) next.pdf = 0;
+  return next;
+}
+
+// The four above, compiled into the loop around them, or called, as they are where each has a room of its own.
+template <class World>
+struct Inlined {
+  static bool meet(const World& w, const ray::Ray& r, const ray::Hit& h, Point& p) { return lean::meet(w, r, h, p); }
+  static Arriving light_at(const World& w, const glm::vec3& at) { return lean::light_at(w, at); }
+  static glm::vec3 f_cos(const surface::Bound& b, const Point& p, const glm::vec3& l) {
+    return lean::f_cos<World>(b, p, l);
+  }
+  static surface::Direction sample(const surface::Bound& b, const Point& p, float choice, const glm::vec2& u) {
+    return lean::sample<World>(b, p, choice, u);
+  }
+};
+template <class World>
+struct InRooms {
+  [[gnu::noinline]] static bool meet(const World& w, const ray::Ray& r, const ray::Hit& h, Point& p) {
+    return lean::meet(w, r, h, p);
+  }
+  [[gnu::noinline]] static Arriving light_at(const World& w, const glm::vec3& at) { return lean::light_at(w, at); }
+  [[gnu::noinline]] static glm::vec3 f_cos(const surface::Bound& b, const Point& p, const glm::vec3& l) {
+    return lean::f_cos<World>(b, p, l);
+  }
+  [[gnu::noinline]] static surface::Direction sample(const surface::Bound& b, const Point& p, float choice,
+                                                     const glm::vec2& u) {
+    return lean::sample<World>(b, p, choice, u);
+  }
+};
+
+template <template <class> class How, class World>
+glm::vec3 follow(const World& world, const typename World::Model& model, ray::Ray ray, sampling::Samples& samples) {
+  using Call = How<World>;
   glm::vec3 sum(0), throughput(1);
   surface::Bound bound;
   bound.model = &model;
+  Point p;
   for (int bounces = 0;; ++bounces) {
     const ray::Hit hit = world.tracer.closest(ray);
     if (!hit.is_some()) return sum + throughput * world.environment();
-    glm::vec3 at, normal;
-    if (!world.surface(ray, hit, at, normal) || bounces >= kMostBounces) return sum;
-    const glm::vec3 to_view = -ray.direction;
-    const ray::Frame frame(facing(normal, to_view, normal));
-    const glm::vec3 local_view = frame.local(to_view), origin = ray::beside(at, normal);
-
-    glm::vec2 choice(0);
+    if (!Call::meet(world, ray, hit, p) || bounces >= kMostBounces) return sum;
+    const glm::vec3 origin = ray::beside(p.at, p.normal);
+    samples.skip(), samples.skip();  // neither a lobe, nor a light, nor a point of it is chosen
     if constexpr (World::kHasLight) {
-      samples.skip(), samples.skip();  // neither the light nor a point of it is chosen
-      const glm::vec3 way = world.position - at;
-      const float distance2 = glm::dot(way, way), distance = std::sqrt(distance2);
-      const glm::vec3 to_light = way / distance;
-      if (glm::dot(to_light, normal) > 0) {
-        const brdf::Geometry<float> g(frame.local(to_light), local_view);
-        if (g.above) {
-          const glm::vec3 f = surface::to_glm(How::eval(bound, g)) * g.cos_i;
-          if (largest(f) > 0 && !world.tracer.occluded({origin, 0, to_light, distance * (1 - 1e-4f)}))
-            sum += throughput * f * (world.intensity / distance2);
-        }
-      }
-    } else {
-      samples.skip(), samples.skip();
+      const Arriving light = Call::light_at(world, p.at);
+      const glm::vec3 f = Call::f_cos(bound, p, light.to_light);
+      if (largest(f) > 0 && !world.tracer.occluded({origin, 0, light.to_light, light.distance * (1 - 1e-4f)}))
+        sum += throughput * f * light.sent;
     }
-    const surface::Direction next =
-        surface::sample_with<typename World::Model, How>(bound, local_view, choice.y, samples.next());
-    const glm::vec3 to_light = frame.world(next.to_light);
-    if (!(next.pdf > 0) || glm::dot(to_light, normal) <= 0) return sum;
+    const surface::Direction next = Call::sample(bound, p, 0, samples.next());
+    if (!(next.pdf > 0)) return sum;
     throughput *= next.weight;
     if (bounces >= kFirstRoulette) {
       const float survival = std::min(largest(throughput), 1.0f);
@@ -121,12 +173,12 @@ glm::vec3 follow(const World& world, const typename World::Model& model, ray::Ra
       throughput /= survival;
     }
     if (!(largest(throughput) > 0)) return sum;
-    ray = {origin, 0, to_light, ray::kFar};
+    ray = {origin, 0, next.to_light, ray::kFar};
   }
 }
 
 // One thread; tile by tile, as reference::render() goes.
-template <class World>
+template <template <class> class How, class World>
 void render(const World& world, const typename World::Model& model, const world::Camera& camera, std::uint32_t end,
             reference::Film& film) {
   constexpr int kTile = 16;
@@ -139,7 +191,7 @@ void render(const World& world, const typename World::Model& model, const world:
           for (std::uint32_t sample = film.samples(pixel); sample < end; ++sample) {
             sampling::Samples samples(static_cast<std::uint32_t>(pixel), sample, 0);
             const ray::Ray ray = camera.ray(glm::vec2(x, y) + samples.next());
-            film.add(pixel, follow(world, model, ray, samples), nullptr);
+            film.add(pixel, follow<How>(world, model, ray, samples), nullptr);
           }
         }
 }
