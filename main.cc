@@ -21,6 +21,7 @@
 #include "olat/command.h"
 #include "olat/compare/command.h"
 #include "olat/import/command.h"
+#include "olat/render/command.h"
 #include "olat/view/command.h"
 #include "render/command/command.h"
 #include "render/cost/command.h"
@@ -126,6 +127,7 @@ int main(int argc, char** argv) try {
   CLI::App& olat = likeness::olat::add_olat(program);
   likeness::olat_import::add_import(olat, exit_code);
   likeness::olat_import::add_export(olat, exit_code);
+  likeness::olat_render::add_render(olat, exit_code);
   likeness::olat_calibrate::add_calibrate(olat, exit_code);
   likeness::olat_check::add_check(olat, exit_code);
   likeness::olat_compare::add_compare(olat, exit_code);

@@ -10,6 +10,7 @@
 #include <vector>
 #include <CLI/CLI.hpp>
 
+#include "datasets_synthetic/capture_command.h"
 #include "datasets_synthetic/material.h"
 #include "datasets_synthetic/scene_command.h"
 #include "render/files/files.h"
@@ -250,6 +251,7 @@ void add_make(CLI::App& program, int& exit_code) {
     exit_code = 0;
   });
   add_make_scene(*make, exit_code);
+  add_make_capture(*make, exit_code);
 }
 
 }  // namespace likeness::datasets_synthetic
