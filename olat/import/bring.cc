@@ -312,13 +312,14 @@ class Bringer {
     std::vector<std::string> names, folders;
     for (const PosedPicture& one : pictures) {
       names.push_back(one.file);
-      folders.push_back(fs::path(one.file).parent_path().string() + "/x");
+      folders.push_back(fs::path(one.file).parent_path().filename().string());
     }
-    const bool has_folders =
-        std::set<std::string>(folders.begin(), folders.end()).size() == names.size() && names.size() > 1;
+    // Pictures that lie in a folder of their own each are called by it.
+    const bool has_folders = names.size() > 1 &&
+                             std::set<std::string>(folders.begin(), folders.end()).size() == names.size() &&
+                             std::find(folders.begin(), folders.end(), "") == folders.end();
     std::vector<std::string> ids = ids_of(names);
-    for (std::size_t i = 0; i < ids.size() && has_folders; ++i)
-      ids[i] = fs::path(names[i]).parent_path().filename().string();
+    for (std::size_t i = 0; i < ids.size() && has_folders; ++i) ids[i] = folders[i];
     for (std::size_t i = 0; i < pictures.size(); ++i) {
       Camera& camera = out_.capture.cameras.emplace_back(pictures[i].camera);
       camera.id = ids[i];
