@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <string_view>
 
 namespace likeness::eval {
 namespace {
@@ -12,6 +13,17 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr std::array kSpecial{0.0, 1e-45, 1.2e-38, 1e-20, 1e-7, 1e-4,    0.25,    0.5, 2.0 / 3, 1 - 1e-7, 1.0,
                               1.5, 2.0,   3.0,     4.0,   kPi,  kPi / 2, kPi / 4, 10., 100.0,   1000.0};
+
+// Inputs that say how much work is done, and not where: more of it is dearer and no harder. They are drawn up to where their
+// usual values begin.
+constexpr std::array kEfforts{std::string_view("walks")};
+
+brdf::Parameter drawn(brdf::Parameter p) {
+  if (std::find(kEfforts.begin(), kEfforts.end(), p.name) == kEfforts.end()) return p;
+  p.range.high = p.initial = p.typical.high = p.typical.low;
+  p.typical.low = p.range.low;
+  return p;
+}
 
 float within(double value, float low, float high) { return std::clamp(static_cast<float>(value), low, high); }
 
@@ -95,7 +107,8 @@ std::uint64_t stream_of(std::uint64_t seed, std::string_view name) {
 
 Draw::Draw(std::span<const brdf::Parameter> inputs) {
   int run = 0;
-  for (const brdf::Parameter& p : inputs) {
+  for (const brdf::Parameter& row : inputs) {
+    const brdf::Parameter p = drawn(row);
     Input input{p, rounded_up(p.range.low), rounded_down(p.range.high), {}, false};
     for (const double value : kSpecial)
       for (const double signed_value : {value, -value})

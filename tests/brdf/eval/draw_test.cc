@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -55,6 +56,26 @@ TEST(Draw, EveryInputLiesWithinItsRangeAfterRounding) {
         ASSERT_GE(double{drawn.at(at, row)}, p.range.low) << p.name << " " << row;
         ASSERT_LE(double{drawn.at(at, row)}, p.range.high) << p.name << " " << row;
       }
+}
+
+// A row of 1e7 walks would take longer than all others, and find nothing that 1000 do not.
+TEST(Draw, AskForNoMoreWorkThanIsUsual) {
+  constexpr std::array kWalks{Parameter{.name = "walks",
+                                        .initial = 10000,
+                                        .range = {2, 1e7},
+                                        .typical = {1e3, 1e5},
+                                        .logarithmic = true,
+                                        .text = "many"}};
+  const Draw rows(kWalks);
+  float least = 1e9f, most = 0, walks = 0;
+  float* column = &walks;
+  for (std::size_t row = 0; row < 2000; ++row) {
+    Random random(1, row);
+    rows.row(random, &column, 0);
+    least = std::min(least, walks), most = std::max(most, walks);
+  }
+  EXPECT_EQ(least, 2);
+  EXPECT_EQ(most, 1000);
 }
 
 TEST(Draw, DirectionsAreUnitToRounding) {
