@@ -1,4 +1,4 @@
-// One program a view, one call a frame: photo and render are two textures of it.
+// One call a frame: photo and render are two textures of it.
 import { tables, fieldNamed, metricNamed } from './tables.js';
 
 const kTriangle = `#version 300 es
@@ -23,11 +23,17 @@ export class Painter {
     return texture;
   }
 
-  program(view) {
-    if (this.programs.has(view)) return this.programs.get(view);
+  // The program for what is on in a state.
+  program(state) {
+    const view = state.view, word = name => fieldNamed(name).words.indexOf(state[name]);
+    const isMap = state.mode === 'difference';
+    const on = [`VIEW_${view.toUpperCase()} 1`, state.wedge && 'WEDGE 1', isMap && `METRIC ${Math.min(word('metric'), 5)}`,
+      !isMap && state.mode === 'onion' && 'ONION 1', `OVERLAY ${isMap ? 0 : word('overlay')}`, !isMap && state.zebra && 'ZEBRA 1']
+      .filter(Boolean).map(name => `#define ${name}\n`).join('');
+    if (this.programs.has(on)) return this.programs.get(on);
     const gl = this.gl, program = gl.createProgram();
     const text = '#version 300 es\nprecision highp float;\n' + (view === 'aces' ? tables.aces : '') +
-      `\n#define VIEW_${view.toUpperCase()} 1\n` + this.source;
+      '\n' + on + this.source;
     for (const [kind, body] of [[gl.VERTEX_SHADER, kTriangle], [gl.FRAGMENT_SHADER, text]]) {
       const shader = gl.createShader(kind);
       gl.shaderSource(shader, body);
@@ -40,7 +46,7 @@ export class Painter {
       throw new Error(`the shader of view ${view} does not compile: ${logs} ${gl.getProgramInfoLog(program)}`);
     }
     const made = { program, places: new Map() };
-    this.programs.set(view, made);
+    this.programs.set(on, made);
     gl.useProgram(program);
     this.constants(made);
     return made;
@@ -64,7 +70,7 @@ export class Painter {
   // `pair`: photo, render, flip (textures or null), width and height of the picture, gain, noise.
   // `window`: width and height of the canvas, pane, origin, zoom, wedge, all in its pixels.
   draw(state, pair, window) {
-    const gl = this.gl, made = this.program(state.view), at = name => this.place(made, name);
+    const gl = this.gl, made = this.program(state), at = name => this.place(made, name);
     const word = name => fieldNamed(name).words.indexOf(state[name]);
     gl.viewport(0, 0, window.width, window.height);
     gl.useProgram(made.program);
@@ -79,9 +85,7 @@ export class Painter {
     gl.uniform1f(at('zoom'), window.zoom);
     gl.uniform1f(at('pane_width'), window.pane);
     gl.uniform1f(at('wedge'), window.wedge);
-    for (const name of ['mode', 'channel', 'overlay']) gl.uniform1i(at(name), word(name));
-    gl.uniform1i(at('metric'), Math.min(word('metric'), 5));
-    gl.uniform1i(at('zebra'), state.zebra ? 1 : 0);
+    for (const name of ['mode', 'channel']) gl.uniform1i(at(name), word(name));
     gl.uniform1f(at('split'), state.split);
     gl.uniform1f(at('onion'), state.mix);
     gl.uniform1f(at('range'), state.range > 0 ? state.range : metricNamed(state.metric).scale);

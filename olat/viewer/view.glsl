@@ -1,6 +1,10 @@
 // The picture of a state, pixel by pixel: what olat/pair/picture.cc computes, in the browser. Photo and render are two
 // textures of one call and pass the same uniforms, so their exposure and their view cannot differ. tests/olat/view holds
 // both against each other.
+//
+// A program is built for what is on: VIEW_<NAME>, and where they are on OVERLAY (1 zones, 2 curve), ZEBRA, WEDGE, ONION
+// and METRIC (its index, 5 for maps that are given). Software GL runs every branch of a program for every pixel, so one
+// for all would cost ten times as much. Otherwise a pixel is of one picture and passes the view once.
 precision highp float;
 precision highp int;
 precision highp sampler2D;
@@ -12,8 +16,7 @@ uniform vec2 size;        // of the picture [pixel]
 uniform vec2 origin;      // of the picture in its pane, whole [pixel]
 uniform float zoom;       // canvas pixels for a pixel of the picture
 uniform float pane_width; // [pixel]; two panes if it is less than the canvas
-uniform int mode, metric, channel, overlay;
-uniform bool zebra;
+uniform int mode, channel;
 uniform float wedge;      // height of the strip of greys [pixel]; 0: none
 uniform float split, onion, range, noise, exposure;
 uniform vec3 gain;        // of the render
@@ -24,7 +27,7 @@ uniform vec3 toe_color, shoulder_color, sensor_stripe, display_stripe;
 uniform float surround, grey, grey_zone;
 out vec4 color;
 
-const int kPhoto = 0, kRender = 1, kWipe = 2, kSide = 3, kOnion = 4, kDifference = 5;
+const int kRender = 1, kWipe = 2, kSide = 3;  // of mode
 const int kClipped = 1, kNotFinite = 4, kMasked = 8;
 const float kLeastNoise = 1.17549435e-38;
 
@@ -115,21 +118,22 @@ vec3 zone_color(float exposed, ivec2 at) {
 
 // One picture: its light, the flaws of the pixel, and where on the grid of stripes it is.
 vec3 picture(vec3 light, int flaws, ivec2 at, bool is_render) {
-  if (channel == 5) return vec3((flaws & kMasked) != 0 ? 0.1 : 1.0);
-  vec3 result = shown(selected(light));
   float y = luminance(light), exposed = y * exposure;
-  if (overlay == 1) result = zone_color(exposed, at);
-  if (overlay == 2) {
-    result = shown(vec3(y));
-    if (exposed < limits.x) result = mix(result, toe_color, 0.6);
-    else if (exposed > limits.y) result = mix(result, shoulder_color, 0.6);
-  }
-  if (zebra) {
-    vec3 full = shown(light);
-    if (max(full.r, max(full.g, full.b)) >= 254.5 / 255.0 && on_stripe(at, true)) result = display_stripe;
-    if (!is_render && (flaws & (kClipped | kNotFinite)) != 0 && on_stripe(at, false)) result = sensor_stripe;
-  }
-  return result;
+#if OVERLAY == 1
+  vec3 result = zone_color(exposed, at);
+#elif OVERLAY == 2
+  vec3 result = shown(vec3(y));
+  if (exposed < limits.x) result = mix(result, toe_color, 0.6);
+  else if (exposed > limits.y) result = mix(result, shoulder_color, 0.6);
+#else
+  vec3 result = shown(selected(light));
+#endif
+#if defined(ZEBRA)
+  vec3 full = shown(light);
+  if (max(full.r, max(full.g, full.b)) >= 254.5 / 255.0 && on_stripe(at, true)) result = display_stripe;
+  if (!is_render && (flaws & (kClipped | kNotFinite)) != 0 && on_stripe(at, false)) result = sensor_stripe;
+#endif
+  return channel == 5 ? vec3((flaws & kMasked) != 0 ? 0.1 : 1.0) : result;
 }
 
 // render/image/cie_lab.h
@@ -182,18 +186,27 @@ vec3 map_color(float t, bool is_signed) {
   return mix(magma[low], magma[low + 1], at - float(low));
 }
 
+#if defined(METRIC)
 vec3 difference(vec3 p, vec3 r, int flaws, float seen) {
   if (!has_photo || !has_render || (flaws & kMasked) != 0) return vec3(surround);
   float a = scalar(p), b = scalar(r), n = max(noise, kLeastNoise), value = 0.0;
-  if (metric == 0) value = log2(max(a, 0.0) + n) - log2(max(b, 0.0) + n);
-  else if (metric == 1) value = (a - b) * exposure;
-  else if (metric == 2) value = abs(a - b) * exposure;
-  else if (metric == 3) value = 2.0 * abs(a - b) / (abs(a) + abs(b) + 2.0 * n);
-  else if (metric == 4) value = delta_e_2000(lab(shown(selected(p))), lab(shown(selected(r))));
-  else if (!has_flip) return vec3(surround);
-  else value = seen;
-  return map_color(value / range, metric < 2);
+#if METRIC == 0
+  value = log2(max(a, 0.0) + n) - log2(max(b, 0.0) + n);
+#elif METRIC == 1
+  value = (a - b) * exposure;
+#elif METRIC == 2
+  value = abs(a - b) * exposure;
+#elif METRIC == 3
+  value = 2.0 * abs(a - b) / (abs(a) + abs(b) + 2.0 * n);
+#elif METRIC == 4
+  value = delta_e_2000(lab(shown(selected(p))), lab(shown(selected(r))));
+#else
+  if (!has_flip) return vec3(surround);
+  value = seen;
+#endif
+  return map_color(value / range, METRIC < 2);
 }
+#endif
 
 // A texel is taken as it is where it covers a canvas pixel or more, and between its neighbours where it does not.
 vec4 texel(sampler2D from, vec2 at) {
@@ -206,11 +219,13 @@ vec4 texel(sampler2D from, vec2 at) {
 
 void main() {
   vec2 at = vec2(gl_FragCoord.x, canvas.y - gl_FragCoord.y);
-  if (wedge > 0.0 && at.y >= canvas.y - wedge) {
+#if defined(WEDGE)
+  if (at.y >= canvas.y - wedge) {
     float zone = floor(at.x * 17.0 / canvas.x);
     color = vec4(shown(vec3(grey * exp2(zone - grey_zone))), 1.0);
     return;
   }
+#endif
   bool right = at.x >= pane_width;
   if (right) at.x -= pane_width;
   vec2 from = at - origin, q = from / zoom;
@@ -218,19 +233,18 @@ void main() {
   color = vec4(vec3(surround), 1.0);
   if (q.x < 0.0 || q.y < 0.0 || q.x >= size.x || q.y >= size.y) return;
 
-  vec4 p = has_photo ? texel(photo, q) : vec4(0.0);
-  vec4 r = has_render ? texel(render, q) : vec4(0.0);
-  r.rgb *= gain;
+  vec4 p = texel(photo, q);
   int flaws = int(p.a + 0.5);
-  if (mode == kDifference) {
-    color.rgb = difference(p.rgb, r.rgb, flaws, has_flip ? texel(flip, q).r : 0.0);
-    return;
-  }
-  float share = mode == kRender ? 1.0 : mode == kOnion ? onion : 0.0;
-  if (mode == kSide) share = right ? 1.0 : 0.0;
-  if (mode == kWipe) share = floor(q.x) + 0.5 >= split * size.x ? 1.0 : 0.0;
-  vec3 a = vec3(surround), b = vec3(surround);
-  if (share < 1.0 && has_photo) a = picture(p.rgb, flaws, stripe, false);
-  if (share > 0.0 && has_render) b = picture(r.rgb, flaws, stripe, true);
-  color.rgb = mix(a, b, share);
+#if defined(METRIC)
+  vec3 r = texel(render, q).rgb * gain;
+  color.rgb = difference(p.rgb, r, flaws, has_flip ? texel(flip, q).r : 0.0);
+#elif defined(ONION)
+  vec3 a = has_photo ? picture(p.rgb, flaws, stripe, false) : vec3(surround);
+  vec3 b = has_render ? picture(texel(render, q).rgb * gain, flaws, stripe, true) : vec3(surround);
+  color.rgb = mix(a, b, onion);
+#else
+  bool is_render = mode == kRender || (mode == kSide && right) || (mode == kWipe && floor(q.x) + 0.5 >= split * size.x);
+  if (is_render ? !has_render : !has_photo) return;
+  color.rgb = picture(is_render ? texel(render, q).rgb * gain : p.rgb, flaws, stripe, is_render);
+#endif
 }

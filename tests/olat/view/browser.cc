@@ -216,7 +216,8 @@ std::string Browser::evaluate(const std::string& expression) {
 bool Browser::wait(const std::string& expression, double seconds) {
   const auto end = Clock::now() + std::chrono::duration<double>(seconds);
   while (Clock::now() < end) {
-    if (evaluate("(() => { try { return Boolean(" + expression + "); } catch { return false; } })()") == "true") return true;
+    if (evaluate("(() => { try { return Boolean(" + expression + "); } catch { return false; } })()") == "true")
+      return true;
     std::this_thread::sleep_for(std::chrono::milliseconds(15));
   }
   return false;

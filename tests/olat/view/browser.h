@@ -27,7 +27,7 @@ class Browser {
   // The value of an expression, awaited, as JSON. Throws std::runtime_error with the page's exception.
   std::string evaluate(const std::string& expression);
   // Until the expression is true, which may fail before; false after `seconds`.
-  bool wait(const std::string& expression, double seconds = 10);
+  bool wait(const std::string& expression, double seconds = 30);
 
   // As the table of actions writes it: "Shift+e", "Ctrl+0", "ArrowRight", "Space".
   void press(const std::string& key);

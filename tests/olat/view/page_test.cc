@@ -204,7 +204,7 @@ TEST_F(Page, ColorsLightsAndMatrixByTheirErrorAndGoesToTheWorst) {
   EXPECT_EQ(evaluate("likeness.scores.rows[1][4]"), "null") << "there is no render of it";
   press("h");
   EXPECT_EQ(state("light"), "\"l2\"") << "half a stop too dark";
-  EXPECT_EQ(evaluate("document.querySelector('#sphere [aria-selected=true]').id"), "\"light2\"");
+  EXPECT_TRUE(wait("document.querySelector('#sphere [aria-selected=true]').id === 'light2'"));
   evaluate("document.getElementById('light3').dispatchEvent(new MouseEvent('click',{bubbles:true}))");
   EXPECT_EQ(state("light"), "\"l3\"");
 }
@@ -224,7 +224,8 @@ TEST_F(Page, NamesTheCommandThatMakesThisPicture) {
   open("light=l3&mode=wipe&split=0.3");
   press("Shift+c");
   EXPECT_TRUE(wait("document.getElementById('toast').textContent.includes('likeness olat picture')"));
-  EXPECT_THAT(evaluate("document.getElementById('toast').textContent"), HasSubstr("light=l3&mode=wipe&split=0.3"));
+  EXPECT_THAT(evaluate("document.getElementById('toast').textContent"),
+              HasSubstr("light=l3&variant=truth&mode=wipe&split=0.3"));
 }
 
 TEST_F(Page, DoesNotFlipByItselfWhereLessMotionIsAskedFor) {
