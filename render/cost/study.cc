@@ -158,7 +158,8 @@ class Measurement {
     row.shown_png = small_png(verdict.shown), row.map_png = small_png(error_picture(verdict.map));
   }
 
-  // Frames of one point a pixel, level by level as long as they are short, tell what the others will take.
+  // Frames of one point a pixel, level by level as long as they are short, tell what the others will take. Levels that are
+  // no numbers of rays are all read: nothing tells one from another.
   TimeModel calibrate() {
     std::vector<FrameTimes> frames;
     image::Picture picture;
@@ -172,7 +173,9 @@ class Measurement {
       if (s == kPixelSamples || !study_.matters[s]) continue;
       Levels levels = study_.cheapest;
       for (; levels[s] < runtime::kSettings[s].levels.size(); ++levels[s])
-        if (!goes_on_("calibration", 0) || one(levels) > options_.longest_ms / 16) break;
+        if (!goes_on_("calibration", 0) ||
+            (one(levels) > options_.longest_ms / 16 && runtime::kSettings[s].work(levels[s]) > 0))
+          break;
     }
     if (frames.empty()) one(study_.cheapest);
     return TimeModel(frames);
