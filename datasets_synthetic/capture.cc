@@ -206,6 +206,30 @@ std::string truth_text(const CaptureOptions& options, const Capture& capture, co
   return out.dump(1) + "\n";
 }
 
+// Rows for photographs that `likeness olat render --variant photos` will make.
+MadeCapture template_of(const CaptureOptions& options) {
+  MadeCapture out;
+  Capture& capture = out.capture;
+  capture.root = options.folder;
+  capture.name = "template";
+  capture.source = "likeness make capture --template; photographs are the renders of the variant photos";
+  capture.variants = {{"photos", "renders/{variant}/{camera}/{light}.exr"}};
+  for (int i = 0; i < options.cameras; ++i) capture.cameras.push_back(camera_at(options, i));
+  for (int i = 0; i < options.lights; ++i) capture.lights.push_back(light_at(options, i));
+  for (std::size_t c = 0; c < capture.cameras.size(); ++c)
+    for (std::size_t l = 0; l < capture.lights.size(); ++l) {
+      capture::Frame& frame = capture.frames.emplace_back();
+      frame.camera = c;
+      frame.light = l;
+      frame.clip = std::numeric_limits<double>::infinity();
+      frame.file = std::filesystem::path("renders/photos") / capture.cameras[c].id / (capture.lights[l].id + ".exr");
+    }
+  out.truth = truth_text(options, capture, {}, {});
+  files::write_whole(capture.root / "truth.json", out.truth);
+  capture::write_capture(capture);
+  return out;
+}
+
 }  // namespace
 
 Picture shoot(const CaptureOptions& options, const Camera& camera, const Light& light, const Shot& shot) {
@@ -247,6 +271,7 @@ Picture shoot(const CaptureOptions& options, const Camera& camera, const Light& 
 }
 
 MadeCapture make_capture(const CaptureOptions& options) {
+  if (options.is_template) return template_of(options);
   const CaptureFaults& faults = options.faults;
   MadeCapture out;
   Capture& capture = out.capture;

@@ -114,9 +114,17 @@ void run(CaptureCommand asked) {
       std::filesystem::remove_all(options.folder / inner, error);
   files::catch_interrupts();
   const MadeCapture made = make_capture(options);
-  std::cout << options.folder.string() << ": " << made.capture.cameras.size() << " cameras, "
-            << made.capture.lights.size() << " lights, " << made.capture.frames.size()
-            << " photographs; renders/truth is without faults, truth.json says what is wrong\n";
+  const auto count = [](std::size_t number, const std::string& thing) {
+    return std::to_string(number) + " " + thing + (number == 1 ? "" : "s");
+  };
+  std::cout << options.folder.string() << ": " << count(made.capture.cameras.size(), "camera") << ", "
+            << count(made.capture.lights.size(), "light") << ", ";
+  if (options.is_template)
+    std::cout << "no picture yet\nNext: likeness olat render " << options.folder.string()
+              << " --scene scene.json --variant photos\n";
+  else
+    std::cout << count(made.capture.frames.size(), "photograph")
+              << "; renders/truth is without faults, truth.json says what is wrong\n";
 }
 
 constexpr auto kFooter =
@@ -128,6 +136,7 @@ Examples
   likeness make capture shifted --shift 1.5,-0.25                   photographs 1.5 pixels to the right, a quarter up
   likeness make capture bright --light-gain 3=0.5 --full-well 20000 --read-noise 5
                                                                     light 3 half a stop too bright, under noise
+  likeness make capture head --template --cameras 4 --lights 32 --near --size 480x640
   likeness make capture mixed --swap 3,7 --missing 2 --duplicate 1 --curve srgb
 Manual: docs/make_capture.md)";
 
@@ -148,6 +157,8 @@ void add_make_capture(CLI::App& make, int& exit_code) {
   sub->add_option("--material", asked->material, "Material file (Callisto at its defaults)");
   sub->add_flag("--float", options.has_floats, "EXR of 32 bit in the place of half");
   sub->add_option("--seed", asked->seed, "Of noise and of frames that are drawn (0)");
+  sub->add_flag("--template", options.is_template,
+                "Cameras and lights only: photographs will be renders of any scene (olat render --variant photos)");
   sub->add_flag("--overwrite", asked->overwrites, "Write over a capture that this command made");
   const std::string group = "Faults of the photographs";
   sub->add_option("--shift", asked->shift, "X,Y in pixels: the subject is that much to the right and down")

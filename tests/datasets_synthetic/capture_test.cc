@@ -259,5 +259,16 @@ TEST(MakeCapture, AShadowOffsetChangesOnlyTheFloorAndAResidueOnlyAdds) {
   EXPECT_EQ(moved.at(48, 30)[0], truth.at(48, 30)[0]);  // the middle of the ball
 }
 
+TEST(MakeCapture, ATemplateHasRowsForRendersAndNoPicture) {
+  const TemporaryFolder folder;
+  CaptureOptions options = small(folder / "c");
+  options.is_template = true;
+  make_capture(options);
+  const capture::Capture got = capture::read_capture(folder / "c");
+  ASSERT_EQ(got.frames.size(), 4u);
+  EXPECT_EQ(photo_file(got, got.frames[2]), render_file(got, got.variants[0], 0, 2));
+  EXPECT_FALSE(std::filesystem::exists(folder / "c/renders"));
+}
+
 }  // namespace
 }  // namespace likeness::datasets_synthetic

@@ -7,6 +7,9 @@
 #include "render/files/files.h"
 #include "tests/fit/measured_files.h"
 #include "tests/fuzz/feed.h"
+#include "tests/fuzz/feed_capture.h"
+#include "tests/olat/import/small_colmap.h"
+#include "tests/render/capture/small_capture.h"
 #include "tests/render/scene/small_files.h"
 
 // What the fuzzers run, without libFuzzer: every file of the corpus, and damaged copies of small valid files.
@@ -32,7 +35,16 @@ std::vector<Seed> seeds() {
           {"ply", scene::test::small_ply()},
           {"ply", scene::test::small_binary_ply()},
           {"obj", scene::test::small_obj()},
-          {"ies", scene::test::small_ies()}};
+          {"ies", scene::test::small_ies()},
+          {"capture", capture::test::small_texts()},
+          {"lights_csv", "# linear\nfile,lx,ly,lz,ir,ig,ib\na.png,0,0.6,0.8,1,2,3\n"},
+          {"lp", "2\na b.png 0 0 5\nb.png 3 0 4\n"},
+          {"dome", R"({"lightConfiguration": "spherical", "positionsSphere": [{"x": 1, "y": 2, "z": 3}],
+                       "ledAdjust": [{"r": 1, "g": 1, "b": 2}]})"},
+          {"colmap",
+           olat_import::test::small_cameras() + std::string(capture::test::kPart) + olat_import::test::small_images()},
+          {"colmap_bin", olat_import::test::small_binary_cameras() + std::string(capture::test::kPart) +
+                             olat_import::test::small_binary_images()}};
 }
 
 TEST(Corpus, EveryFileIsReadOrRefused) {

@@ -9,6 +9,7 @@
 #include "fit/measured/rgl.h"
 #include "render/files/files.h"
 #include "tests/fit/measured_files.h"
+#include "tests/fuzz/feed_capture.h"
 #include "tests/fuzz/feed_exr.h"
 
 namespace likeness::measured::test {
@@ -28,6 +29,8 @@ bool usable(const Rgb& f) { return f.r >= 0 && f.g >= 0 && f.b >= 0 && std::isfi
 bool feed(std::string_view format, std::string_view bytes) {
   if (format == "table") return feed_table(bytes);
   if (format == "exr") return image::test::feed_exr(bytes);
+  for (const std::string_view of_captures : {"capture", "lights_csv", "lp", "dome", "colmap", "colmap_bin"})
+    if (format == of_captures) return capture::test::feed_capture(format, bytes);
   for (const std::string_view of_scenes : {"scene", "glb", "ply", "obj", "ies"})
     if (format == of_scenes) return feed_scene(format, bytes);
   std::unique_ptr<Material> material;

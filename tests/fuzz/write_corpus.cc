@@ -3,6 +3,9 @@
 
 #include "render/files/files.h"
 #include "tests/fit/measured_files.h"
+#include "tests/fuzz/feed_capture.h"
+#include "tests/olat/import/small_colmap.h"
+#include "tests/render/capture/small_capture.h"
 #include "tests/render/scene/small_files.h"
 
 // write_corpus FOLDER: the valid seeds from which the files of tests/fuzz/corpus begin.
@@ -36,5 +39,20 @@ int main(int count, char** arguments) {
   files::write_whole(folder / "obj" / "square.obj", scene::test::small_obj());
   files::write_whole(folder / "ies" / "quadrant.ies", scene::test::small_ies());
   files::write_whole(folder / "ies" / "side.ies", scene::test::small_ies("90 180 270"));
+  const std::string part(capture::test::kPart);
+  files::write_whole(folder / "capture" / "small.txt", capture::test::small_texts());
+  files::write_whole(folder / "lights_csv" / "small.csv",
+                     "# linear\nfile,lx,ly,lz,ir,ig,ib\na.png,0,0.6,0.8,1,2,3\nb.png,1,0,0,1,1,1\n");
+  files::write_whole(folder / "lp" / "small.lp", "2\na b.png 0 0 5\nb.png 3 0 4\n");
+  files::write_whole(
+      folder / "dome" / "small.dome",
+      R"({"lightConfiguration": "spherical", "positionsSphere": [{"x": 1, "y": 2, "z": 3}], "ledAdjust": [{"r": 1, "g": 1, "b": 2}]})");
+  files::write_whole(
+      folder / "dome" / "calibrated.dome",
+      R"({"directions": [[0, 0, 1]], "lightsCalibration": [{"intensity": 2, "whiteBalance": [1, 1, 2]}]})");
+  files::write_whole(folder / "colmap" / "small.txt",
+                     olat_import::test::small_cameras() + part + olat_import::test::small_images());
+  files::write_whole(folder / "colmap_bin" / "small.bin",
+                     olat_import::test::small_binary_cameras() + part + olat_import::test::small_binary_images());
   files::write_whole(folder / "ies" / "tilted.ies", scene::test::small_ies("0", "TILT=INCLUDE\n1\n2\n0 90\n1 0.8\n"));
 }

@@ -67,4 +67,11 @@ inline Capture small_capture(const std::filesystem::path& root) {
   return out;
 }
 
+// Its four files, as tests/fuzz parts them.
+inline std::string small_texts() {
+  const CaptureTexts texts = texts_of(small_capture("/c"));
+  const std::string part = "\n====\n";
+  return texts.capture + part + texts.cameras + part + texts.lights + part + texts.frames;
+}
+
 }  // namespace likeness::capture::test
