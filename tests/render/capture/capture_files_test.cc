@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <chrono>
+#include <ctime>
 #include <fstream>
 
 #include "render/files/files.h"
@@ -281,11 +281,11 @@ TEST(CaptureFiles, ACaptureOfFortyCamerasAnd331LightsOpensInAFifthOfASecond) {
           {.camera = c, .light = l, .file = "photos/" + capture.cameras[c].id + "/" + capture.lights[l].id + ".exr"});
   write_capture(capture);
   const auto seconds_to_read = [&] {
-    const auto began = std::chrono::steady_clock::now();
+    const std::clock_t began = std::clock();  // of the processor: other programs do not count
     const Capture got = read_capture(folder.path());
     EXPECT_EQ(got.frames.size(), 13240u);
     EXPECT_NE(FrameTable(got).frame(39, 330), kAbsent);
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+    return static_cast<double>(std::clock() - began) / CLOCKS_PER_SEC;
   };
   const double rows = std::min(seconds_to_read(), seconds_to_read());
   files::write_whole(folder / "frames.json",
@@ -294,7 +294,7 @@ TEST(CaptureFiles, ACaptureOfFortyCamerasAnd331LightsOpensInAFifthOfASecond) {
   std::printf("rows %.0f ms, pattern %.0f ms\n", 1e3 * rows, 1e3 * pattern);
 #if defined(NDEBUG) && !defined(__SANITIZE_ADDRESS__)
   EXPECT_LT(pattern, 0.2);
-  EXPECT_LT(rows, 0.4);  // 0.06 s on an idle machine
+  EXPECT_LT(rows, 0.2);
 #endif
 }
 
