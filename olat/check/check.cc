@@ -55,6 +55,7 @@ void judge_pair(const Capture& capture, const Finder& finder, std::size_t camera
   const double clipped = f.inside > 0 ? static_cast<double>(f.clipped) / static_cast<double>(f.inside) : 0;
   finder.judge(Rule::kClipped, place, clipped, per_cent(clipped) + " of the subject is clipped");
   if (!f.render_unreadable.empty()) finder.report(Rule::kUnreadable, place, 1, f.render_unreadable);
+  if (!f.render_header.empty()) finder.report(Rule::kRenderOfOther, place, 1, f.render_header);
   finder.judge(Rule::kRenderNotFinite, place, static_cast<double>(f.render_not_finite),
                std::to_string(f.render_not_finite) + " pixels of the render are NaN or infinite");
 }
@@ -91,9 +92,10 @@ struct Lights {
     });
     if (shares.empty()) return;
     const double least = *std::ranges::min_element(shares, {}, [](double share) { return std::abs(share); });
+    const bool is_below = least < -row_of(Rule::kBlackLevel).allowed;
     finder.measured(Rule::kBlackLevel, {camera}, std::abs(least),
                     "the darkest part of every photo is at least " + per_cent(least) + " of its brightest percent" +
-                        (least < 0 ? ": too much was subtracted" : ""));
+                        (is_below ? ": too much was subtracted" : ""));
   }
 
   void noise_floor() const {
@@ -156,9 +158,13 @@ struct Lights {
     if (all.empty())
       return finder.leave_out(Rule::kTransferCurve, camera, "no renders, and no normals with directions of lights");
     const double middle = median(all);
-    finder.measured(Rule::kTransferCurve, {camera}, std::abs(middle - 1),
+    const double off = std::abs(middle - 1);
+    const bool is_found = off > row_of(Rule::kTransferCurve).allowed;
+    finder.measured(Rule::kTransferCurve, {camera}, off,
                     "photos go with the light to the power of " + number(middle) +
-                        (middle < 1 ? "; 0.45 is a curve that was not undone" : "; 2.2 is a curve undone twice"));
+                        (!is_found    ? ""
+                         : middle < 1 ? "; 0.45 is a curve that was not undone"
+                                      : "; 2.2 is a curve undone twice"));
   }
 
   void mirrored() const {
@@ -174,10 +180,12 @@ struct Lights {
       return finder.leave_out(Rule::kMirrored, camera,
                               view.normals ? "fewer than 4 lights have a direction" : "the camera has no normals");
     const registration::Mirror mirror = registration::mirror_of(*view.normals, view.mask, photos, directions);
-    finder.measured(Rule::kMirrored, {camera}, mirror.found - mirror.own,
-                    "with the sign of " + std::string(registration::flips_text(mirror.flips)) +
-                        " turned over, photos correlate with N.L by " + number(mirror.found) + " instead of " +
-                        number(mirror.own));
+    finder.measured(
+        Rule::kMirrored, {camera}, mirror.found - mirror.own,
+        "photos correlate with N.L by " + number(mirror.own) +
+            (mirror.flips == 0 ? ", and less with any sign turned over"
+                               : "; with the sign of " + std::string(registration::flips_text(mirror.flips)) +
+                                     " turned over by " + number(mirror.found)));
   }
 
   void light_order() {
@@ -227,8 +235,9 @@ struct Lights {
     // What may be chance is told, and is no finding.
     const double sure = shift.length() > 3 * shift.sigma() ? shift.length() : 0;
     finder.measured(Rule::kShift, {camera}, sure,
-                    "photos lie " + number(shift.x) + " pixels to the right of and " + number(shift.y) +
-                        " below their renders (sigma " + number(shift.sigma()) + ")");
+                    "photos lie " + number(std::abs(shift.x)) + " pixels to the " + (shift.x < 0 ? "left" : "right") +
+                        " of and " + number(std::abs(shift.y)) + (shift.y < 0 ? " above" : " below") +
+                        " their renders (sigma " + number(shift.sigma()) + ")");
   }
 };
 
@@ -271,8 +280,8 @@ Report run_check(const Capture& capture, const Options& options) {
                               (near.empty() ? "; capture.json lists what there is" : "; did you mean " + near + "?"));
     }
     variant = &capture.variants[at];
-  } else if (!capture.variants.empty()) {
-    variant = &capture.variants.front();
+  } else if (const std::size_t at = capture::rendered_variant_of(capture); at != kAbsent) {
+    variant = &capture.variants[at];
   }
   check_lists(capture, finder);
 

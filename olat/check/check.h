@@ -43,7 +43,7 @@ struct Report {
 };
 
 struct Options {
-  std::string variant;       // id; empty: the first one
+  std::string variant;       // id; empty: the first that has renders
   bool reads_hashes = true;  // false: sha256 and exposure_attributes are left out
   std::function<bool(std::string_view what, double share)> keep_going;  // false: stop
 };

@@ -56,7 +56,7 @@ void add_check(CLI::App& olat, int& exit_code) {
   const auto line = std::make_shared<CommandLine>();
   CLI::App* app = olat.add_subcommand("check", "Looks for faults of a capture: lights, files, black, clipping, shifts");
   app->add_option("CAPTURE", line->capture, "Folder with capture.json, or that file")->required();
-  app->add_option("--variant", line->variant, "Renders to look at; without it, the first of capture.json");
+  app->add_option("--variant", line->variant, "Renders to look at; without it, the first that has renders");
   app->add_flag("--json", line->json, "Print the report as JSON");
   app->add_flag("--no-hash", line->no_hash, "Do not compare SHA-256 and the attributes of EXRs");
   app->footer(footer());

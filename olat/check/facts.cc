@@ -10,6 +10,7 @@
 #include "olat/check/finder.h"
 #include "render/capture/pixels.h"
 #include "render/files/files.h"
+#include "render/image/attributes.h"
 #include "render/image/exr_exposure.h"
 #include "render/image/read.h"
 
@@ -71,6 +72,24 @@ bool is_older(const fs::path& file, const fs::path& than) {
   return !a && !b && written < changed;
 }
 
+// What the header of a render says of another pair. Renders of other programs say nothing.
+std::string other_pair(const Capture& capture, const capture::Variant& variant, const fs::path& file,
+                       std::size_t camera, std::size_t light) {
+  const auto attributes = image::attributes_of_whole_exr(file);
+  if (!attributes) return {};
+  std::string out;
+  const auto compare = [&](const char* key, const std::string& id) {
+    const auto stated = attributes->find(key);
+    if (stated != attributes->end() && stated->second != id)
+      out += (out.empty() ? "" : ", ") + std::string(key) + " is " + files::in_quotes(stated->second) + " instead of " +
+             files::in_quotes(id);
+  };
+  compare("olat:camera", capture.cameras[camera].id);
+  compare("olat:light", capture.lights[light].id);
+  compare("olat:variant", variant.id);
+  return out;
+}
+
 std::optional<Picture> render_of(const Capture& capture, const Request& request, std::size_t camera, Facts& facts) {
   if (request.variant == nullptr) return {};
   const fs::path file = capture::render_file(capture, *request.variant, camera, facts.light);
@@ -79,7 +98,10 @@ std::optional<Picture> render_of(const Capture& capture, const Request& request,
   try {
     Picture render = capture::read_render(capture, *request.variant, camera, facts.light);
     facts.has_render = true;
-    facts.is_stale = is_older(file, capture.root / "cameras.json") || is_older(file, capture.root / "lights.json");
+    for (const char* list : {"cameras.json", "lights.json"})  // written before capture.json, unless they were changed
+      facts.is_stale = facts.is_stale || (is_older(file, capture.root / list) &&
+                                          is_older(capture.root / "capture.json", capture.root / list));
+    facts.render_header = other_pair(capture, *request.variant, file, camera, facts.light);
     for (std::size_t i = 0; i < render.rgb.size(); i += 3)
       if (!std::all_of(&render.rgb[i], &render.rgb[i] + 3, [](float v) { return std::isfinite(v); }))
         ++facts.render_not_finite;

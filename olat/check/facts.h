@@ -47,6 +47,7 @@ struct Facts {
   bool has_reference = false;  // a render, or else the cosine
   std::string render_unreadable;
   bool is_stale = false;
+  std::string render_header;  // what it says otherwise
   std::size_t render_not_finite = 0;
   registration::Sketch reference;
   registration::Curve curve;

@@ -125,7 +125,7 @@ void add_compare(CLI::App& olat, int& exit_code) {
   const auto line = std::make_shared<CommandLine>();
   CLI::App* app = olat.add_subcommand("compare", "How far are photos and renders apart: every metric of every pair");
   app->add_option("CAPTURE", line->capture, "Folder with capture.json, or that file")->required();
-  app->add_option("--variant", line->options.variant, "Renders to compare; without it, the first of capture.json");
+  app->add_option("--variant", line->options.variant, "Renders to compare; without it, the first that has renders");
   app->add_option("--metric", line->metrics, "A metric, as often as wanted; without it, all");
   app->add_option("--match-gain", line->match, "none, capture, light or channel; without it, as capture.json says");
   app->add_option("--weight", line->weight, "mask, or cosine: pixels by N.L")->capture_default_str();

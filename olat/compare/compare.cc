@@ -251,9 +251,9 @@ Comparison run_compare(const Capture& capture, const Options& options) {
   const std::set<std::size_t> lights = positions("light", options.lights, capture.lights);
   if (capture.variants.empty())
     throw files::UsageError("the capture has no variant of renders; make one with likeness olat render");
-  std::vector<std::string> wanted;
-  if (!options.variant.empty()) wanted.push_back(options.variant);
-  const capture::Variant& variant = capture.variants[*positions("variant", wanted, capture.variants).begin()];
+  const capture::Variant& variant =
+      capture.variants[options.variant.empty() ? capture::rendered_variant_of(capture)
+                                               : *positions("variant", {options.variant}, capture.variants).begin()];
   if (options.weight == Weight::kCosine)
     for (const std::size_t camera : cameras)
       if (capture::layer_file(capture, camera, capture::Layer::kNormal).empty())

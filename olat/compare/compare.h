@@ -33,7 +33,7 @@ inline constexpr std::array kWeights{
 };
 
 struct Options {
-  std::string variant;                  // id; empty: the first one
+  std::string variant;                  // id; empty: the first that has renders
   std::vector<metric::Metric> metrics;  // empty: all
   Match match = Match::kNone;
   Weight weight = Weight::kMask;

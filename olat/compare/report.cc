@@ -80,9 +80,8 @@ Json json_of_totals(const Comparison& comparison, const Keep& keep) {
   return out;
 }
 
-}  // namespace
-
-std::string table_of(const Comparison& comparison, const capture::Capture& capture) {
+// Totals, and the pairs that are farthest apart.
+std::string totals_text(const Comparison& comparison, const capture::Capture& capture) {
   std::string out = padded("metric", 10, true);
   for (const auto& statistic : kStatistics) out += padded(std::string(statistic.id), 10);
   out += "  unit\n";
@@ -93,18 +92,23 @@ std::string table_of(const Comparison& comparison, const capture::Capture& captu
     for (const auto& statistic : kStatistics) out += padded(four_digits(summary.*statistic.value), 10);
     out += "  " + std::string(row.unit) + "\n";
   }
-  if (!comparison.metrics.empty()) {
-    const std::string unit(metric::row_of(comparison.metrics[0]).id);
-    out += "\nworst pairs by the rms of " + unit + "\n";
-    for (const Row* row : worst_rows(comparison, 0, kWorst)) {
-      const Summary& s = row->summaries[0];
-      out += "  camera " + capture.cameras[row->camera].id + ", light " + capture.lights[row->light].id + ": rms " +
-             four_digits(s.rms) + ", median " + four_digits(s.median) + ", p95 " + four_digits(s.p95) + "\n";
-    }
+  out += "\nworst pairs by the rms of " + std::string(metric::row_of(comparison.metrics[0]).id) + "\n";
+  for (const Row* row : worst_rows(comparison, 0, kWorst)) {
+    const Summary& s = row->summaries[0];
+    out += "  camera " + capture.cameras[row->camera].id + ", light " + capture.lights[row->light].id + ": rms " +
+           four_digits(s.rms) + ", median " + four_digits(s.median) + ", p95 " + four_digits(s.p95) + "\n";
   }
+  return out;
+}
+
+}  // namespace
+
+std::string table_of(const Comparison& comparison, const capture::Capture& capture) {
+  const auto states = states_of(comparison);
+  std::string out =
+      states.contains(State::kCompared) ? totals_text(comparison, capture) : std::string("nothing was compared\n");
   for (const Row& row : comparison.rows)
     if (!row.fault.empty()) out += std::string(kStates[static_cast<std::size_t>(row.state)]) + ": " + row.fault + "\n";
-  const auto states = states_of(comparison);
   out += "\n";
   std::string counts;
   for (const auto& [state, count] : states)

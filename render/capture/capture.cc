@@ -1,6 +1,8 @@
 #include "render/capture/capture.h"
 
 #include <algorithm>
+#include <filesystem>
+#include <system_error>
 
 namespace likeness::capture {
 namespace {
@@ -23,6 +25,17 @@ bool is_id(std::string_view text) {
 std::size_t camera_of(const Capture& capture, std::string_view id) { return place_of(capture.cameras, id); }
 std::size_t light_of(const Capture& capture, std::string_view id) { return place_of(capture.lights, id); }
 std::size_t variant_of(const Capture& capture, std::string_view id) { return place_of(capture.variants, id); }
+
+std::size_t rendered_variant_of(const Capture& capture) {
+  for (std::size_t at = 0; at < capture.variants.size(); ++at)
+    for (const Frame& frame : capture.frames) {
+      std::error_code ignored;
+      if (frame.kind == FrameKind::kOneLight &&
+          std::filesystem::exists(render_file(capture, capture.variants[at], frame.camera, frame.light), ignored))
+        return at;
+    }
+  return capture.variants.empty() ? kAbsent : 0;
+}
 
 FrameTable::FrameTable(const Capture& capture)
     : lights_(capture.lights.size()), frames_(capture.cameras.size() * capture.lights.size(), kAbsent) {

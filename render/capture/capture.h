@@ -133,6 +133,8 @@ bool is_id(std::string_view text);
 std::size_t camera_of(const Capture& capture, std::string_view id);
 std::size_t light_of(const Capture& capture, std::string_view id);
 std::size_t variant_of(const Capture& capture, std::string_view id);
+// The first variant of which a render is there (looks at the names of files); else the first; kAbsent if there is none.
+std::size_t rendered_variant_of(const Capture& capture);
 
 // The frame of a camera under one light, in O(1) after O(frames) once; kAbsent where there is none. If there are several,
 // the first.

@@ -21,6 +21,7 @@
 
 #include "render/capture/files_of_capture.h"
 #include "render/files/files.h"
+#include "render/image/attributes.h"
 #include "render/image/read.h"
 #include "render/image/write.h"
 #include "tests/olat/ball_capture.h"
@@ -91,10 +92,10 @@ TEST(Check, FindsNothingInHonestPhotosWithHighlightsAndShadowsThatTheRendersLack
 TEST(Check, WithoutRendersOrNormalsSaysWhatItDidNotCheck) {
   const Report report = report_of({.plant = {}, .has_renders = false, .has_normals = false, .has_mask = false});
   EXPECT_EQ(texts(report), "");
-  EXPECT_EQ(report.not_checked.size(), 8u) << "five rules of renders; curve, order and hand";
+  EXPECT_EQ(report.not_checked.size(), 9u) << "six rules of renders; curve, order and hand";
   const Report by_normals = report_of({.plant = {}, .has_renders = false});
   EXPECT_EQ(texts(by_normals), "");
-  EXPECT_EQ(by_normals.not_checked.size(), 5u);
+  EXPECT_EQ(by_normals.not_checked.size(), 6u);
 }
 
 TEST(Check, FindsAShiftAndItsSize) {
@@ -160,7 +161,7 @@ TEST(Check, FindsLightsOfTheOtherHand) {
   const auto found = findings_of(run_check(capture), Rule::kMirrored);
   ASSERT_EQ(found.size(), 1u);
   EXPECT_GT(found[0].value, 0.3);
-  EXPECT_NE(found[0].text.find("sign of x turned"), std::string::npos) << found[0].text;
+  EXPECT_NE(found[0].text.find("the sign of x turned over"), std::string::npos) << found[0].text;
 }
 
 TEST(Check, FindsABlackLevelThatIsNotBlack) {
@@ -361,8 +362,10 @@ TEST(Check, FindsAnEmptyMaskAndMissingAndStaleRenders) {
 
   const TemporaryFolder second;
   const Capture stale = write_ball_capture(second.path());
-  fs::last_write_time(second / "renders/plain/front/003.exr",
-                      fs::last_write_time(second / "lights.json") - std::chrono::hours(1));
+  const auto written = fs::last_write_time(second / "capture.json");
+  fs::last_write_time(second / "renders/plain/front/003.exr", written - std::chrono::hours(1));
+  EXPECT_EQ(texts(run_check(stale)), "") << "made before the capture was written, as renders may be";
+  fs::last_write_time(second / "lights.json", written + std::chrono::seconds(30));
   found = only(run_check(stale), Rule::kStaleRender);
   ASSERT_EQ(found.size(), 1u);
   EXPECT_NE(found[0].text.find("003"), std::string::npos);
@@ -370,6 +373,23 @@ TEST(Check, FindsAnEmptyMaskAndMissingAndStaleRenders) {
   image::write_exr(second / "aux/mask.exr", image::Picture(96, 96));
   EXPECT_EQ(findings_of(run_check(stale), Rule::kEmptyMask).size(), 1u);
   EXPECT_THROW(run_check(stale, {.variant = "plane", .reads_hashes = true, .keep_going = {}}), files::UsageError);
+}
+
+TEST(Check, FindsARenderWhoseHeaderNamesAnotherPair) {
+  const TemporaryFolder folder;
+  const Capture capture = write_ball_capture(folder.path());
+  const auto sign = [&](const char* light) {
+    const fs::path file = folder / "renders/plain/front/003.exr";
+    image::write_exr(file, image::read_picture(file),
+                     {{"olat:camera", "front"}, {"olat:light", light}, {"olat:variant", "plain"}});
+  };
+  sign("003");
+  EXPECT_EQ(texts(run_check(capture)), "");
+  sign("004");
+  const auto found = only(run_check(capture), Rule::kRenderOfOther);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].light, "003");
+  EXPECT_NE(found[0].text.find("\"004\" instead of \"003\""), std::string::npos) << found[0].text;
 }
 
 TEST(Check, IsTheSameOnOneThreadAndStopsWhenAsked) {
