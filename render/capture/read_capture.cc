@@ -108,7 +108,11 @@ Light light_at(const Fields& row, Places& places) {
   out.id = id_of(row, places, kMostLights);
   out.label = row.text("label");
   row.only_one_of("direction", "position");
-  if (row.has("direction")) out.place = DistantLight{row.direction("direction")};
+  if (row.has("direction")) {
+    // What is unit already keeps its bits: a digest of it holds when the file is written again.
+    const glm::dvec3 given = row.vector("direction");
+    out.place = DistantLight{std::abs(glm::length(given) - 1) < 1e-14 ? given : row.direction("direction")};
+  }
   if (row.has("position")) out.place = NearLight{row.vector("position")};
   out.intensity = row.vector("intensity");
   out.calibrated_by = row.text("calibrated_by");

@@ -254,6 +254,11 @@ glm::dmat4 Fields::rigid(std::string_view key) const {
   }
   const double turn = glm::determinant(glm::dmat3(m));
   if (!(std::abs(turn - 1) < 1e-2)) refuse(key, " is not a turn (determinant " + number_text(turn) + "; expected 1)");
+  // What is a frame already keeps its bits, so that a file which is read and written again stays the same.
+  const glm::dmat3 turned(m), rest = glm::transpose(turned) * turned - glm::dmat3(1);
+  double most = 0;
+  for (int c = 0; c < 3; ++c) most = std::max(most, glm::length(rest[c]));
+  if (most < 1e-12) return m;
   const glm::dvec3 z = glm::normalize(glm::dvec3(m[2]));
   const glm::dvec3 x = glm::normalize(glm::cross(glm::dvec3(m[1]), z));
   m[0] = glm::dvec4(x, 0);
