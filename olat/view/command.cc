@@ -11,6 +11,7 @@
 
 #include "olat/pair/picture.h"
 #include "olat/pair/state.h"
+#include "olat/view/report.h"
 #include "olat/view/server.h"
 #include "render/capture/files_of_capture.h"
 #include "render/files/files.h"
@@ -73,6 +74,19 @@ int picture(const Request& request) {
   return 0;
 }
 
+int report(const std::string& folder, const ReportOptions& options, const std::string& out, bool json) {
+  const capture::Capture capture = capture::read_capture(folder);
+  files::catch_interrupts();
+  const ReportSummary summary = write_report(capture, options, out);
+  if (json)
+    std::cout << "{\"out\": \"" << out << "\", \"compared\": " << summary.compared << ", \"held\": " << summary.held
+              << ", \"bytes\": " << summary.bytes << "}\n";
+  else
+    std::cout << "written: " << out << " (" << summary.compared << " pairs compared, the worst " << summary.held
+              << " in it, " << (summary.bytes + 999'999) / 1'000'000 << " MB)\n";
+  return 0;
+}
+
 std::string keys_of_states() {
   std::string out = "A state is key=value&key=value, the query of the viewer's address:\n";
   for (const olat_pair::Field& field : olat_pair::fields()) {
@@ -125,6 +139,35 @@ void add_view(CLI::App& olat, int& exit_code) {
               "\n"
               "Exit codes: 0 done, 2 usage, 3 a file cannot be used. Manual: docs/olat_view.md");
   app->callback([request, &exit_code] { exit_code = picture(*request); });
+
+  struct ReportRequest {
+    std::string capture, out = "report.html";
+    ReportOptions options;
+    bool json = false;
+  };
+  const auto wanted = std::make_shared<ReportRequest>();
+  app = olat.add_subcommand("report", "One page to mail: every pair compared, the worst with their light");
+  app->add_option("CAPTURE", wanted->capture, "Folder with capture.json")->required();
+  app->add_option("--out", wanted->out, "Page to write")->capture_default_str();
+  app->add_option("--variant", wanted->options.variant, "Renders to compare with; the first");
+  app->add_option("--metric", wanted->options.metric, "Of light: stops, signed, absolute, smape or hdr_flip")
+      ->capture_default_str();
+  app->add_option("--pairs", wanted->options.pairs, "The page holds, the worst ones")
+      ->check(CLI::Range(1, 100))
+      ->capture_default_str();
+  app->add_option("--side", wanted->options.side, "Of their crops around the largest error [pixel]")
+      ->check(CLI::Range(16, 4096))
+      ->capture_default_str();
+  app->add_flag("--json", wanted->json, "Print what was written as JSON");
+  app->footer(
+      "The page needs no network and opens from a file; exposure, view, flip, wipe and difference work as in the "
+      "viewer.\n"
+      "\n"
+      "  likeness olat report captures/cat --out cat.html\n"
+      "\n"
+      "Exit codes: 0 done, 2 usage, 3 a file cannot be used. Manual: docs/olat_view.md");
+  app->callback(
+      [wanted, &exit_code] { exit_code = report(wanted->capture, wanted->options, wanted->out, wanted->json); });
 }
 
 }  // namespace likeness::olat_view

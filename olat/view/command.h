@@ -6,7 +6,7 @@ class App;
 
 namespace likeness::olat_view {
 
-// Adds `view` and `picture` to `likeness olat`. Throw files::UsageError and files::InputError.
+// Adds `view`, `picture` and `report` to `likeness olat`. Throw files::UsageError and files::InputError.
 void add_view(CLI::App& olat, int& exit_code);
 
 }  // namespace likeness::olat_view

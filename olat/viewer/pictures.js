@@ -2,7 +2,7 @@
 // neighbours ahead of time.
 import { textOf } from './state.js';
 
-const kMostBytes = 400e6, kAhead = 2, kParallel = 2;
+const kMostBytes = 400e6, kAhead = 2, kParallel = 1;  // one, so that the server has a thread left for what is asked for now
 
 // From the program that serves the page. A source answers: capture(), tables(), shader(), pixels(), gain(), frame(),
 // scores().

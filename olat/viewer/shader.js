@@ -23,12 +23,14 @@ export class Painter {
     return texture;
   }
 
-  // The program for what is on in a state.
-  program(state) {
+  // The program for what is on in a state, and for textures finer than the canvas.
+  program(state, isMinified) {
     const view = state.view, word = name => fieldNamed(name).words.indexOf(state[name]);
     const isMap = state.mode === 'difference';
     const on = [`VIEW_${view.toUpperCase()} 1`, state.wedge && 'WEDGE 1', isMap && `METRIC ${Math.min(word('metric'), 5)}`,
-      !isMap && state.mode === 'onion' && 'ONION 1', `OVERLAY ${isMap ? 0 : word('overlay')}`, !isMap && state.zebra && 'ZEBRA 1']
+      !isMap && state.mode === 'onion' && 'ONION 1', `OVERLAY ${isMap ? 0 : word('overlay')}`, !isMap && state.zebra && 'ZEBRA 1',
+      state.mode === 'render' && 'RENDER 1', ['wipe', 'side'].includes(state.mode) && 'PANES 1',
+      (isMap || state.zebra || state.channel === 'coverage') && 'FLAWS 1', isMinified && 'MINIFIED 1']
       .filter(Boolean).map(name => `#define ${name}\n`).join('');
     if (this.programs.has(on)) return this.programs.get(on);
     const gl = this.gl, program = gl.createProgram();
@@ -70,7 +72,8 @@ export class Painter {
   // `pair`: photo, render, flip (textures or null), width and height of the picture, gain, noise.
   // `window`: width and height of the canvas, pane, origin, zoom, wedge, all in its pixels.
   draw(state, pair, window) {
-    const gl = this.gl, made = this.program(state), at = name => this.place(made, name);
+    const gl = this.gl, texels = Math.max(1, ...['photo', 'render', 'flip'].map(kind => (pair[kind] ? pair[kind + '_width'] : 1)));
+    const made = this.program(state, window.zoom * pair.width < 0.999 * texels), at = name => this.place(made, name);
     const word = name => fieldNamed(name).words.indexOf(state[name]);
     gl.viewport(0, 0, window.width, window.height);
     gl.useProgram(made.program);
@@ -94,6 +97,17 @@ export class Painter {
     gl.uniform3fv(at('gain'), pair.gain);
     gl.uniform1fv(at('gt'), ['P', 'a', 'm', 'l', 'c', 'b'].map(name => state['gt_' + name]));
     gl.uniform2fv(at('limits'), curveLimits(state));
+    // Outside of the pictures there is only the surround.
+    const right = Math.min(window.pane, window.origin[0] + pair.width * window.zoom), left = Math.max(0, window.origin[0]);
+    const top = Math.max(0, window.origin[1]), bottom = Math.min(window.height, window.origin[1] + pair.height * window.zoom);
+    gl.disable(gl.SCISSOR_TEST);
+    gl.clearColor(tables.surround, tables.surround, tables.surround, 1);
+    gl.clear(gl.COLOR_BUFFER_BIT);
+    if (!state.wedge) {
+      gl.enable(gl.SCISSOR_TEST);
+      const end = state.mode === 'side' ? window.pane + right : right;
+      gl.scissor(Math.floor(left), Math.floor(window.height - bottom), Math.max(0, Math.ceil(end - left) + 1), Math.max(0, Math.ceil(bottom - top) + 1));
+    }
     gl.drawArrays(gl.TRIANGLES, 0, 3);
   }
 }

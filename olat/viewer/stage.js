@@ -71,6 +71,7 @@ export class Stage {
       entry.used = pictures.frame;
       this.shownEntries[kind] = entry;
       pair[kind] = entry.texture ?? null;
+      pair[kind + '_width'] = entry.width;
     }
     const gain = pictures.gain(state);
     if (gain) Object.assign(pair, { gain: gain.gain, noise: gain.noise });

@@ -3,8 +3,9 @@
 // both against each other.
 //
 // A program is built for what is on: VIEW_<NAME>, and where they are on OVERLAY (1 zones, 2 curve), ZEBRA, WEDGE, ONION
-// and METRIC (its index, 5 for maps that are given). Software GL runs every branch of a program for every pixel, so one
-// for all would cost ten times as much. Otherwise a pixel is of one picture and passes the view once.
+// METRIC (its index, 5 for maps that are given), RENDER (nothing else is shown), PANES (some pixels are photo, some
+// render), FLAWS (they are looked at) and MINIFIED (a texel is less than a pixel). Software GL runs every branch of a
+// program for every pixel, so one for all would cost ten times as much.
 precision highp float;
 precision highp int;
 precision highp sampler2D;
@@ -27,7 +28,7 @@ uniform vec3 toe_color, shoulder_color, sensor_stripe, display_stripe;
 uniform float surround, grey, grey_zone;
 out vec4 color;
 
-const int kRender = 1, kWipe = 2, kSide = 3;  // of mode
+const int kSide = 3;  // of mode
 const int kClipped = 1, kNotFinite = 4, kMasked = 8;
 const float kLeastNoise = 1.17549435e-38;
 
@@ -209,12 +210,20 @@ vec3 difference(vec3 p, vec3 r, int flaws, float seen) {
 #endif
 
 // A texel is taken as it is where it covers a canvas pixel or more, and between its neighbours where it does not.
-vec4 texel(sampler2D from, vec2 at) {
-  ivec2 whole = textureSize(from, 0);
-  vec2 place = at / size * vec2(whole);
-  vec4 nearest = texelFetch(from, clamp(ivec2(place), ivec2(0), whole - 1), 0);
-  if (zoom * size.x >= 0.999 * float(whole.x)) return nearest;
-  return vec4(texture(from, place / vec2(whole)).rgb, nearest.a);
+vec3 light_at(sampler2D from, vec2 at) {
+#if defined(MINIFIED)
+  return texture(from, at / size).rgb;
+#else
+  return texelFetch(from, ivec2(at / size * vec2(textureSize(from, 0))), 0).rgb;
+#endif
+}
+int flaws_at(vec2 at) {
+#if defined(FLAWS)
+  ivec2 whole = textureSize(photo, 0);
+  return int(texelFetch(photo, clamp(ivec2(at / size * vec2(whole)), ivec2(0), whole - 1), 0).a + 0.5);
+#else
+  return 0;
+#endif
 }
 
 void main() {
@@ -233,18 +242,21 @@ void main() {
   color = vec4(vec3(surround), 1.0);
   if (q.x < 0.0 || q.y < 0.0 || q.x >= size.x || q.y >= size.y) return;
 
-  vec4 p = texel(photo, q);
-  int flaws = int(p.a + 0.5);
+  int flaws = flaws_at(q);
 #if defined(METRIC)
-  vec3 r = texel(render, q).rgb * gain;
-  color.rgb = difference(p.rgb, r, flaws, has_flip ? texel(flip, q).r : 0.0);
+  color.rgb = difference(light_at(photo, q), light_at(render, q) * gain, flaws, has_flip ? light_at(flip, q).r : 0.0);
 #elif defined(ONION)
-  vec3 a = has_photo ? picture(p.rgb, flaws, stripe, false) : vec3(surround);
-  vec3 b = has_render ? picture(texel(render, q).rgb * gain, flaws, stripe, true) : vec3(surround);
+  vec3 a = has_photo ? picture(light_at(photo, q), flaws, stripe, false) : vec3(surround);
+  vec3 b = has_render ? picture(light_at(render, q) * gain, flaws, stripe, true) : vec3(surround);
   color.rgb = mix(a, b, onion);
-#else
-  bool is_render = mode == kRender || (mode == kSide && right) || (mode == kWipe && floor(q.x) + 0.5 >= split * size.x);
+#elif defined(PANES)
+  bool is_render = mode == kSide ? right : floor(q.x) + 0.5 >= split * size.x;
   if (is_render ? !has_render : !has_photo) return;
-  color.rgb = picture(is_render ? texel(render, q).rgb * gain : p.rgb, flaws, stripe, is_render);
+  vec3 p = light_at(photo, q), r = light_at(render, q) * gain;
+  color.rgb = picture(is_render ? r : p, flaws, stripe, is_render);
+#elif defined(RENDER)
+  if (has_render) color.rgb = picture(light_at(render, q) * gain, flaws, stripe, true);
+#else
+  if (has_photo) color.rgb = picture(light_at(photo, q), flaws, stripe, false);
 #endif
 }

@@ -23,7 +23,7 @@ class Viewer {
     this.capture = capture;
     this.keys = new Keys();
     const canvas = byId('picture');
-    const gl = canvas.getContext('webgl2', { antialias: false, alpha: false, preserveDrawingBuffer: true });
+    const gl = canvas.getContext('webgl2', { antialias: false, alpha: false });
     if (!gl) throw new Error('this browser has no WebGL 2, which the pictures need');
     this.painter = new Painter(gl, shader);
     canvas.addEventListener('webglcontextlost', event => { event.preventDefault(); this.complain('the graphics context was lost: reload the page'); });

@@ -32,6 +32,7 @@ struct SmallCapture {
   int cameras = 2, lights = 5, width = 64, height = 48;
   double dark_stops = 0.5;  // of the render at light 2
   bool with_renders = true, with_mask = true;
+  bool is_repeated = false;  // the first pair's files for all: quick to make where they are large
 };
 
 inline capture::Capture write_small_capture(const std::filesystem::path& root, const SmallCapture& want = {}) {
@@ -64,6 +65,13 @@ inline capture::Capture write_small_capture(const std::filesystem::path& root, c
       frame.clip = 3;
       out.frames.push_back(frame);
       const double phase = l + 0.3 * c;
+      if (want.is_repeated && c + l > 0) {
+        for (const char* kind : {"photos", "renders/truth"}) {
+          std::filesystem::create_directories(root / kind / ("c" + std::to_string(c)));
+          std::filesystem::copy_file(root / kind / "c0/l0.exr", root / kind / name);
+        }
+        continue;
+      }
       image::write_exr(root / "photos" / name, bump(want.width, want.height, phase, 1));
       const bool is_absent = c == want.cameras - 1 && l == want.lights - 1;
       if (want.with_renders && !is_absent)

@@ -9,6 +9,8 @@
 
 #include "olat/pair/actions.h"
 #include "olat/pair/state.h"
+#include "olat/view/report.h"
+#include "render/capture/files_of_capture.h"
 #include "tests/olat/small_capture.h"
 #include "tests/olat/view/browser.h"
 #include "tests/olat/view/served.h"
@@ -259,6 +261,31 @@ TEST_F(Page, FitsWindowsFromTelephoneToDesk) {
     EXPECT_GT(std::stoi(evaluate("document.getElementById('picture').clientHeight")), height / 3);
   }
   browser_->resize(1280, 720);
+}
+
+TEST_F(Page, IsItsOwnReportWithoutAServer) {
+  const std::filesystem::path file = folder_->path() / "report.html";
+  const capture::Capture capture = capture::read_capture(folder_->path());
+  const ReportSummary summary = write_report(capture, ReportOptions{.pairs = 2}, file);
+  EXPECT_EQ(summary.compared, 9u) << "of ten pairs one has no render";
+  EXPECT_LE(std::filesystem::file_size(file), 30u << 20);
+  browser_->open("file://" + file.string());
+  ASSERT_TRUE(wait("document.body.dataset.ready && likeness.complete")) << evaluate("document.body.innerText");
+  EXPECT_EQ(state("light"), "\"l2\"") << "the first of the worst";
+  press("Space");
+  EXPECT_EQ(state("mode"), "\"render\"");
+  press("w");
+  EXPECT_EQ(state("mode"), "\"wipe\"");
+  press("}");
+  EXPECT_EQ(state("ev"), "\"1\"");
+  EXPECT_TRUE(wait("likeness.complete"));
+  const image::Picture photo = test::bump(64, 48, 2, 1);
+  evaluate("likeness.stage.pointer = {x: 40, y: 20}");
+  EXPECT_NEAR(std::stod(evaluate("likeness.stage.values().photo[0]")), photo.at(40, 20)[0], 1e-3 * photo.at(40, 20)[0]);
+  EXPECT_EQ(evaluate("performance.getEntriesByType('resource').filter(r => !r.name.startsWith('data:') && "
+                     "!r.name.startsWith('blob:')).length"),
+            "0")
+      << "nothing is asked for";
 }
 
 TEST_F(Page, SaysSoWithAWrongToken) {
