@@ -65,8 +65,13 @@ double robust_slope(const std::vector<float>& r, const std::vector<float>& p) {
 Place place_of(const capture::Capture& capture, const State& state) {
   if (capture.cameras.empty() || capture.lights.empty())
     throw files::UsageError("the capture has no " + std::string(capture.cameras.empty() ? "cameras" : "lights"));
-  return {position("camera", state.camera, capture.cameras), position("light", state.light, capture.lights),
-          position("variant", state.variant, capture.variants)};
+  std::size_t variant = position("variant", state.variant, capture.variants);
+  for (std::size_t v = 0; state.variant.empty() && v < capture.variants.size(); ++v) {
+    if (!std::filesystem::exists(capture::render_file(capture, capture.variants[v], 0, 0).parent_path())) continue;
+    variant = v;
+    break;
+  }
+  return {position("camera", state.camera, capture.cameras), position("light", state.light, capture.lights), variant};
 }
 
 namespace {

@@ -28,7 +28,8 @@ struct Pair {
   int height() const { return photo.height > 0 ? photo.height : render.height; }
 };
 
-// Positions of a state's ids in the lists of its capture; empty ids are the first ones. variant is capture::kAbsent where
+// Positions of a state's ids in the lists of its capture; empty ids are the first ones, of the
+// variants the first whose folder exists. variant is capture::kAbsent where
 // the capture has none.
 struct Place {
   std::size_t camera = 0, light = 0, variant = capture::kAbsent;

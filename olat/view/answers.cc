@@ -61,7 +61,8 @@ Answer refusal(int status, const std::string& text) {
 
 Answers::Answers(capture::Capture capture, const ViewOptions& options)
     : capture_(std::move(capture)), frames_(capture_), cache_(options.cache_bytes) {
-  olat_pair::place_of(capture_, {});  // refuses a capture without cameras or lights
+  // Refuses a capture without cameras or lights.
+  if (const std::size_t v = olat_pair::place_of(capture_, {}).variant; v != kAbsent) variant_ = v;
   if (options.with_scores) scorer_ = std::thread([this] { score_all(); });
 }
 
@@ -126,6 +127,8 @@ std::string Answers::capture_json() const {
     out["lights"].push_back({{"id", light.id}, {"label", light.label}, {"direction", direction_of(light)}});
   out["variants"] = Json::array();
   for (const capture::Variant& variant : capture_.variants) out["variants"].push_back(variant.id);
+  if (const std::size_t v = olat_pair::place_of(capture_, {}).variant; v != kAbsent)
+    out["variant"] = capture_.variants[v].id;
   for (std::size_t c = 0; c < capture_.cameras.size(); ++c) {
     std::string has(capture_.lights.size(), '0');
     for (std::size_t l = 0; l < has.size(); ++l)

@@ -169,6 +169,7 @@ ReportSummary write_report(const capture::Capture& capture, const ReportOptions&
   data["shader"] = std::string(k_view_glsl);
   data["scores"] = {
       {{"metric", options.metric}, {"statistic", "p95"}, {"known", compared.size()}, {"all", all}, {"rows", rows}}};
+  data["capture"]["variant"] = capture.variants[first.variant].id;
   for (Json& photos : data["capture"]["photos"]) photos = std::string(lights, '0');
 
   std::string table =

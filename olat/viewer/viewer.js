@@ -60,7 +60,7 @@ class Viewer {
     if (!this.has(this.place.camera, this.place.light) && !this.state.light) this.place.light = Math.max(0, this.capture.photos[this.place.camera].indexOf('1'));
     this.state.camera = cameras[this.place.camera].id;
     this.state.light = lights[this.place.light].id;
-    if (!variants.includes(this.state.variant)) this.state.variant = variants[0] ?? '';
+    if (!variants.includes(this.state.variant)) this.state.variant = this.capture.variant ?? '';
   }
   get camera() { return this.capture.cameras[this.place.camera]; }
   has(camera, light) { return this.capture.photos[camera]?.[light] === '1'; }

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "olat/pair/actions.h"
+#include "olat/pair/tables.h"
 #include "render/files/files.h"
 
 namespace likeness::olat_pair {
@@ -98,6 +99,11 @@ TEST(Actions, HaveOneIdEachAndNoKeyTwice) {
       EXPECT_TRUE(keys.insert(key).second) << key << " of " << a.id;
     }
   }
+}
+
+TEST(Actions, StandInTheManualAsInTheTable) {
+  const std::string manual = files::read_whole(LIKENESS_SOURCE_DIR "/docs/olat_view.md", 1 << 20);
+  EXPECT_THAT(manual, HasSubstr(keys_table()));
 }
 
 }  // namespace
