@@ -55,7 +55,7 @@ export class Matrix {
     context.strokeStyle = style.getPropertyValue('--ink');
     context.lineWidth = 2 * ratio;
     context.strokeRect(light * cell + ratio, Math.round(camera * rows) + ratio, Math.max(2, cell - 2 * ratio), Math.max(2, rows - 2 * ratio));
-    const known = scores ? (scores.rows ? `${scores.known} of ${scores.all} pairs compared` : 'no renders to compare with') : '';
+    const known = !capture.variants.length ? 'no renders to compare with' : scores ? `${scores.known} of ${scores.all} pairs compared` : '';
     this.note.textContent = scores?.rows ? `${scores.metric.replace('_', ' ')}, ${scores.statistic}; ${known}` : known;
     canvas.setAttribute('aria-label', `cameras by lights. ${this.text({ camera, light })}. ${this.note.textContent}`);
   }

@@ -174,12 +174,12 @@ class Viewer {
   // Tags over the picture: what each pane is, and the pipeline that it passed.
   showHud() {
     const { state } = this, gain = this.stage.pair.gain, hash = hashOf(pipelineOf(state));
-    const absent = kind => this.stage.shownEntries[kind]?.absent;
+    const absent = kind => this.stage.shownEntries[kind]?.absent, broken = kind => this.stage.shownEntries[kind]?.error;
     const tag = (id, text, kinds) => {
       const lost = kinds.filter(absent);
       byId(id).querySelector('b').textContent = text;
       byId(id).querySelector('code').textContent = hash;
-      byId(id).querySelector('i').textContent = lost.length ? `no ${lost.join(', no ')}` : '';
+      byId(id).querySelector('i').textContent = lost.map(kind => (broken(kind) ? `${kind} cannot be read` : `no ${kind}`)).join(', ');
       byId(id).dataset.hash = hash;
     };
     const names = { photo: ['PHOTO', ['photo']], render: ['RENDER', ['render']], wipe: ['PHOTO', ['photo']], side: ['PHOTO', ['photo']], onion: ['PHOTO + RENDER', ['photo', 'render']], difference: ['PHOTO − RENDER', ['photo', 'render']] };
