@@ -49,6 +49,9 @@ function(likeness_library name)
   endif()
   add_library(likeness::${name} ALIAS ${target})
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
+  if(NOT LIKENESS_FUZZ)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD OFF)  # rooms are compiled as their developers see them
+  endif()
   target_compile_features(${target} ${reach} cxx_std_20)
   target_include_directories(${target} ${reach} $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
                                                 $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/likeness>)
@@ -87,12 +90,18 @@ endfunction()
 
 # One program, one entry of CTest: a process that loads OpenImageIO costs 0.3 s before its first line. The data that
 # developers share lies beside the checkout; a test that finds none says so and skips.
+#
+# Headers are half of the time that tests take to compile, so ./bootstrap compiles the sources of a program together
+# (CMAKE_UNITY_BUILD of the preset release). APART says that they use the same names for different things, and are not.
 function(likeness_test name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "TIMEOUT" "SOURCES;NEEDS;WITH")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "APART" "TIMEOUT" "SOURCES;NEEDS;WITH")
   if(NOT arg_TIMEOUT)
     set(arg_TIMEOUT 120)
   endif()
   add_executable(${name} ${arg_SOURCES})
+  if(arg_APART)
+    set_target_properties(${name} PROPERTIES UNITY_BUILD OFF)
+  endif()
   target_compile_definitions(${name} PRIVATE LIKENESS_SHARED_DIR="${LIKENESS_SHARED_DIR}"
                                              LIKENESS_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   target_link_libraries(${name} PRIVATE likeness::warnings ${arg_NEEDS} ${arg_WITH} GTest::gtest_main)

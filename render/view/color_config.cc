@@ -91,9 +91,9 @@ PixelTransform view_of_config(const std::string& named, const std::string& displ
   const char* const environment = std::getenv("OCIO");
   const std::string file = !named.empty() ? named : environment ? environment : "";
   if (file.empty())
-    throw InputError(
-        "view " + in_quotes(view) +
-        " is none of srgb, gt, khronos, agx and aces, and no OpenColorIO config is named (in the scene's view, or by $OCIO)");
+    throw InputError("view " + in_quotes(view) +
+                     " is none of srgb, gt, khronos, agx and aces, and no OpenColorIO config is named (in the scene's "
+                     "view, or by $OCIO)");
   // OpenColorIO reads what it is given whatever it is; a folder or a file of gigabytes is refused here.
   constexpr std::size_t kMostBytes = std::size_t{64} << 20;
   files::read_whole(file, kMostBytes);

@@ -203,14 +203,14 @@ TYPED_TEST(EveryModel, FloatIsNearDouble) {
 // ---- no NaN, no infinity, nothing negative, wherever the inputs are allowed.
 
 double edge_height(Random& random) {
-  constexpr double kHeights[]{0, 1, 1e-7, 1e-7, 1e-12, 1e-19, 1.2e-38, 1.5e-45, -1e-7, 0.5};
-  return random.uniform() < 0.5 ? kHeights[random.index(std::size(kHeights))] : random.uniform(-0.05, 1);
+  constexpr double kEdgeHeights[]{0, 1, 1e-7, 1e-7, 1e-12, 1e-19, 1.2e-38, 1.5e-45, -1e-7, 0.5};
+  return random.uniform() < 0.5 ? kEdgeHeights[random.index(std::size(kEdgeHeights))] : random.uniform(-0.05, 1);
 }
 
-struct Drawn {
+struct DirectionPair {
   Vec3<double> l, v;
 };
-Drawn draw_pair(Random& random) {
+DirectionPair draw_pair(Random& random) {
   const double phi = random.uniform(0, 2 * std::numbers::pi);
   const Vec3<double> l = Random::direction_at(edge_height(random), phi);
   switch (random.index(5)) {
@@ -246,7 +246,7 @@ TYPED_TEST(EveryModel, AMillionEdgesInFloatGiveNoNaN) {
   Random random(4);
   for (int i = 0; i < 1000000; ++i) {
     const auto model = draw_edge_model<TypeParam>(random);
-    const Drawn pair = draw_pair(random);
+    const DirectionPair pair = draw_pair(random);
     const Channels f = eval_in<float>(model, pair.l, pair.v);
     if (finite_and_not_negative(f)) continue;
     std::string parameters;
@@ -260,7 +260,7 @@ TYPED_TEST(EveryModel, EdgesInDoubleAndInBatchesGiveNoNaN) {
   Random random(6);
   for (int i = 0; i < 100000; ++i) {
     const auto model = draw_edge_model<TypeParam>(random);
-    const Drawn pair = draw_pair(random);
+    const DirectionPair pair = draw_pair(random);
     ASSERT_TRUE(finite_and_not_negative(eval_in<double>(model, pair.l, pair.v))) << i;
     ASSERT_TRUE(finite_and_not_negative(eval_in<xsimd::batch<float>>(model, pair.l, pair.v))) << i;
     ASSERT_TRUE(finite_and_not_negative(eval_in<xsimd::batch<double>>(model, pair.l, pair.v))) << i;

@@ -75,7 +75,7 @@ TYPED_TEST(Reference, BurleyDiffuseMeetsItsFile) {
 
 // Independent statements of the formulas, in long double and in the angles of the papers.
 using Long = long double;
-constexpr Long kPi = std::numbers::pi_v<Long>;
+constexpr Long kLongPi = std::numbers::pi_v<Long>;
 
 struct Angles {
   Long cos_i, cos_o, theta_h, theta_d, hx, hy, hz;
@@ -94,7 +94,7 @@ Long lerp(Long a, Long b, Long t) { return a + (b - a) * t; }
 Long smith_lambda(Long alpha, Long c) { return (std::sqrt(1 + alpha * alpha * (1 / (c * c) - 1)) - 1) / 2; }
 Long ggx_by_tangent(Long alpha, Long theta_h) {
   const Long t = std::tan(theta_h) / alpha, c2 = std::cos(theta_h) * std::cos(theta_h);
-  return 1 / (kPi * alpha * alpha * c2 * c2 * (1 + t * t) * (1 + t * t));
+  return 1 / (kLongPi * alpha * alpha * c2 * c2 * (1 + t * t) * (1 + t * t));
 }
 Long ggx_lobe(Long alpha, const Angles& a) {
   const Long g2 = 1 / (1 + smith_lambda(alpha, a.cos_i) + smith_lambda(alpha, a.cos_o));
@@ -106,7 +106,7 @@ Long burley(Long roughness, const Angles& a, Long offset = 0.5L, Long scale = 2)
 }
 
 Channels by_formula(const Lambert<double>& m, const Angles&) {
-  return {double(m.base_color.r / kPi), double(m.base_color.g / kPi), double(m.base_color.b / kPi)};
+  return {double(m.base_color.r / kLongPi), double(m.base_color.g / kLongPi), double(m.base_color.b / kLongPi)};
 }
 Channels by_formula(const Ggx<double>& m, const Angles& a) {
   const Long lobe = ggx_lobe(Long(m.roughness) * m.roughness, a), rise = schlick(std::cos(a.theta_d));
@@ -114,13 +114,13 @@ Channels by_formula(const Ggx<double>& m, const Angles& a) {
           double(lerp(m.f0.b, 1, rise) * lobe)};
 }
 Channels by_formula(const BurleyDiffuse<double>& m, const Angles& a) {
-  const Long f = burley(m.roughness, a) / kPi;
+  const Long f = burley(m.roughness, a) / kLongPi;
   return {double(m.base_color.r * f), double(m.base_color.g * f), double(m.base_color.b * f)};
 }
 Channels by_formula(const Disney2012<double>& m, const Angles& a) {
   const Long rise = schlick(std::cos(a.theta_d));
   const Long ss = 1.25L * (burley(m.roughness, a, 0, 1) * (1 / (a.cos_i + a.cos_o) - 0.5L) + 0.5L);
-  const Long diffuse = lerp(burley(m.roughness, a), ss, m.subsurface) / kPi;
+  const Long diffuse = lerp(burley(m.roughness, a), ss, m.subsurface) / kLongPi;
   const Long aspect = std::sqrt(1 - 0.9L * m.anisotropic), alpha = Long(m.roughness) * m.roughness;
   const Long ax = alpha / aspect, ay = alpha * aspect;
   const Long e = (a.hx / ax) * (a.hx / ax) + (a.hy / ay) * (a.hy / ay) + a.hz * a.hz;
@@ -129,9 +129,9 @@ Channels by_formula(const Disney2012<double>& m, const Angles& a) {
     return 1 / (4 * a.cos_i * a.cos_o * (1 + smith_lambda(alpha_g, a.cos_i)) * (1 + smith_lambda(alpha_g, a.cos_o)));
   };
   const Long alpha_g = (0.5L + Long(m.roughness) / 2) * (0.5L + Long(m.roughness) / 2);
-  const Long lobe = masking(alpha_g) / (kPi * ax * ay * e * e);
+  const Long lobe = masking(alpha_g) / (kLongPi * ax * ay * e * e);
   const Long c = lerp(0.1L, 0.001L, m.clearcoat_gloss), cc = c * c;
-  const Long berry = (cc - 1) / (kPi * std::log(cc) * (1 + (cc - 1) * a.hz * a.hz));
+  const Long berry = (cc - 1) / (kLongPi * std::log(cc) * (1 + (cc - 1) * a.hz * a.hz));
   const Long coat = 0.25L * m.clearcoat * lerp(0.04L, 1, rise) * berry * masking(0.25L);
   const Long luminance = 0.3L * m.base_color.r + 0.6L * m.base_color.g + 0.1L * m.base_color.b;
   const auto channel = [&](Long rho) {
@@ -161,7 +161,7 @@ Channels by_formula(const Callisto<double>& m, const Angles& a) {
     const Long c2 = lerp(1, step, mask * m.smooth_terminator * tint_o);
     const Long f0 = lerp(0.08L * m.specular, rho, m.metallic), rn = r(m.specular_fresnel_falloff);
     const Long fresnel = f0 + std::clamp(2 - rn, 0.0L, 1.0L) * (1 - f0) * std::pow(1 - std::cos(a.theta_d), 5 * rn);
-    return double((c1 * rho * (1 - m.metallic) / kPi + fresnel * lobe) * c2);
+    return double((c1 * rho * (1 - m.metallic) / kLongPi + fresnel * lobe) * c2);
   };
   return {channel(m.base_color.r, m.diffuse_fresnel_tint.r, m.retroreflection_tint.r, m.smooth_terminator_tint.r),
           channel(m.base_color.g, m.diffuse_fresnel_tint.g, m.retroreflection_tint.g, m.smooth_terminator_tint.g),

@@ -38,9 +38,9 @@ double random_number(Random& random) {
   }
 }
 Vec3<double> random_view(Random& random) {
-  constexpr double kHeights[]{1, 1e-3, 1e-7, 1e-19, 1.2e-38, 1.5e-45};
+  constexpr double kRareHeights[]{1, 1e-3, 1e-7, 1e-19, 1.2e-38, 1.5e-45};
   return random.uniform() < 0.4
-             ? Random::direction_at(kHeights[random.index(std::size(kHeights))], random.uniform(0, 7))
+             ? Random::direction_at(kRareHeights[random.index(std::size(kRareHeights))], random.uniform(0, 7))
              : random.direction();
 }
 struct Drawn {

@@ -19,7 +19,6 @@ namespace likeness::measured {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr double kPi = std::numbers::pi;
 
 class Convert : public testing::Test {
  protected:
@@ -95,7 +94,8 @@ TEST_F(Convert, RealPaperIsWhiteDiffuseAndReciprocal) {
         directions_at({theta_i, theta_o, phi}, l, v);
         Rgb f, g;
         ASSERT_TRUE(paper->evaluate(l, v, f) && paper->evaluate(v, l, g));
-        EXPECT_NEAR(f.g * kPi, 0.87, 0.12) << theta_i << " " << theta_o << " " << phi;  // 0.779 to 0.967 measured
+        EXPECT_NEAR(f.g * std::numbers::pi, 0.87, 0.12)
+            << theta_i << " " << theta_o << " " << phi;  // 0.779 to 0.967 measured
         EXPECT_NEAR(f.g / g.g, 1, 0.08);  // the data's own: 6.8 % at worst here, 1.6 % in the median of all pairs
       }
 }
@@ -108,9 +108,9 @@ TEST_F(Convert, RealPaintIsReadAsItsPublishedLayout) {
   EXPECT_EQ(paint->coverage().padding, 45u * 45 * 90 - 34u * 41 * 90) << "theta_in to 68, theta_out to 82 deg are data";
   Direction l, v;
   Rgb mirror, beside;
-  directions_at({45 * kPi / 180, 45 * kPi / 180, kPi}, l, v);
+  directions_at({45 * std::numbers::pi / 180, 45 * std::numbers::pi / 180, std::numbers::pi}, l, v);
   ASSERT_TRUE(paint->evaluate(l, v, mirror));
-  directions_at({45 * kPi / 180, 45 * kPi / 180, kPi / 2}, l, v);
+  directions_at({45 * std::numbers::pi / 180, 45 * std::numbers::pi / 180, std::numbers::pi / 2}, l, v);
   ASSERT_TRUE(paint->evaluate(l, v, beside));
   EXPECT_GT(mirror.g, 100 * beside.g) << "the clear coat's highlight lies at phi = 180 deg";
   EXPECT_GT(beside.b, 2 * beside.r) << "blue";
@@ -126,7 +126,8 @@ TEST_F(Convert, DecodedMerlTableIsReadWithItsInvalidBins) {
   const auto table = read(folder / "yellow-plastic.binary");
   EXPECT_EQ(table->coverage().valid, 1096216u) << "75 % of the bins lie above the horizon";
   double albedo = 0;
-  table->for_each_sample([&](const Sample& s) { albedo += s.weight * s.f.r * s.to_light.z * s.to_view.z / kPi; });
+  table->for_each_sample(
+      [&](const Sample& s) { albedo += s.weight * s.f.r * s.to_light.z * s.to_view.z / std::numbers::pi; });
   EXPECT_NEAR(albedo, 0.2803, 1e-3);  // as measured; another scale or weight moves it by far more
 }
 

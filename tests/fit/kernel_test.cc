@@ -21,7 +21,6 @@ Kernels kernels_avx512();
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 using Channels = std::vector<double>;
 
 // Every instruction set of this processor.
@@ -47,7 +46,7 @@ std::vector<Point> points(unsigned seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> u(0, 1);
   const auto direction = [&] {
-    const double theta = u(random) * 89 * kPi / 180, phi = 2 * kPi * u(random);
+    const double theta = u(random) * 89 * std::numbers::pi / 180, phi = 2 * std::numbers::pi * u(random);
     return measured::Direction{std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)};
   };
   const auto value = [&] { return 20 * std::pow(u(random), 4); };

@@ -12,11 +12,12 @@ namespace likeness::measured {
 namespace {
 
 using files::InputError;
-constexpr double kPi = std::numbers::pi;
 
 Rgb at(const Material& material, double theta_i_deg, double theta_o_deg, double phi_deg) {
   Direction l, v;
-  directions_at({theta_i_deg * kPi / 180, theta_o_deg * kPi / 180, phi_deg * kPi / 180}, l, v);
+  directions_at(
+      {theta_i_deg * std::numbers::pi / 180, theta_o_deg * std::numbers::pi / 180, phi_deg * std::numbers::pi / 180}, l,
+      v);
   Rgb f(-1);
   material.evaluate(l, v, f);
   return f;
@@ -47,7 +48,7 @@ TEST(Csv, ReadsDegreesCommentsRepeatsAndGaps) {
 
 TEST(Csv, TakesRadiansUnlessTheHeaderSaysDegrees) {
   const auto material = parse_csv("phi,r,g,b,theta_o,theta_i\n3.14159265,1,2,3,0.5,0.25\n", "m");
-  EXPECT_EQ(at(*material, 0.25 * 180 / kPi, 0.5 * 180 / kPi, 180).b, 3);
+  EXPECT_EQ(at(*material, 0.25 * 180 / std::numbers::pi, 0.5 * 180 / std::numbers::pi, 180).b, 3);
   EXPECT_THAT(message_of("theta_i,theta_o,phi,r,g,b\n30,30,0,1,1,1\n"),
               testing::StartsWith(
                   "own.csv:2: theta_i = 30.000000 rad; expected 0 to 1.5708; for degrees name the column theta_i_deg"));
@@ -84,7 +85,7 @@ double distance_by_search(const Elevations& a, const Elevations& b) {
   directions_at(a, l, v);
   directions_at(b, l2, v2);
   double best = 100;
-  for (double psi = -kPi; psi < kPi; psi += 1e-3) {
+  for (double psi = -std::numbers::pi; psi < std::numbers::pi; psi += 1e-3) {
     const double c = std::cos(psi), s = std::sin(psi);
     const Direction d = l - Direction(c * l2.x - s * l2.y, s * l2.x + c * l2.y, l2.z);
     const Direction e = v - Direction(c * v2.x - s * v2.y, s * v2.x + c * v2.y, v2.z);
@@ -99,10 +100,10 @@ TEST(Csv, ReachesAsFarAsTheMetricItStates) {
   int near = 0;
   for (int i = 0; i < 400; ++i) {
     // theta_i and theta_o differ by more than the reach, so that the swapped pair is never near.
-    const Elevations e{0.7 * unit(random), 0.9 + 0.6 * unit(random), kPi * unit(random)};
+    const Elevations e{0.7 * unit(random), 0.9 + 0.6 * unit(random), std::numbers::pi * unit(random)};
     const auto off = [&](double x, double most) { return std::clamp(x + 0.16 * (unit(random) - 0.5), 0.0, most); };
     const Elevations q{off(e.theta_i, 1.5), off(e.theta_o, 1.5),
-                       std::clamp(e.phi + 0.6 * (unit(random) - 0.5), 0.0, kPi)};
+                       std::clamp(e.phi + 0.6 * (unit(random) - 0.5), 0.0, std::numbers::pi)};
     const double distance = distance_by_search(e, q);
     if (std::abs(distance - kCsvReach) < 1e-3) continue;  // the search's own step
     const auto material = parse_csv("theta_i,theta_o,phi,r,g,b\n" + std::to_string(e.theta_i) + "," +
@@ -127,7 +128,7 @@ TEST(Csv, TreeFindsWhatOneSampleAtATimeFinds) {
   const std::string header = all;
   for (std::string& row : rows) {
     row = std::to_string(1.5 * unit(random)) + "," + std::to_string(1.5 * unit(random)) + "," +
-          std::to_string(kPi * unit(random)) + ",1,1,1\n";
+          std::to_string(std::numbers::pi * unit(random)) + ",1,1,1\n";
     all += row;
   }
   const auto together = parse_csv(all, "m");
@@ -136,7 +137,7 @@ TEST(Csv, TreeFindsWhatOneSampleAtATimeFinds) {
   int found = 0;
   for (int i = 0; i < 500; ++i) {
     Direction l, v;
-    directions_at({1.5 * unit(random), 1.5 * unit(random), kPi * unit(random)}, l, v);
+    directions_at({1.5 * unit(random), 1.5 * unit(random), std::numbers::pi * unit(random)}, l, v);
     Rgb f;
     const bool any = std::any_of(apart.begin(), apart.end(), [&](const auto& one) { return one->evaluate(l, v, f); });
     EXPECT_EQ(together->evaluate(l, v, f), any);
@@ -158,7 +159,8 @@ TEST(Csv, WeightsAddUpToTwoPiSquaredWithoutAColumnAndAreKeptWithOne) {
     return total;
   };
   const std::string rows = "0.1,0.2,0.3,1,1,1";
-  EXPECT_NEAR(sum("theta_i,theta_o,phi,r,g,b\n" + rows + "\n0.5,0.5,0.5,1,1,1\n"), 4 * kPi * kPi,
+  EXPECT_NEAR(sum("theta_i,theta_o,phi,r,g,b\n" + rows + "\n0.5,0.5,0.5,1,1,1\n"),
+              4 * std::numbers::pi * std::numbers::pi,
               1e-5);  // float weights
   EXPECT_EQ(sum("theta_i,theta_o,phi,r,g,b,weight\n" + rows + ",0.25\n"), 0.25);
 }

@@ -10,7 +10,6 @@ namespace {
 
 using files::InputError;
 using test::small_mbsdf;
-constexpr double kPi = std::numbers::pi;
 
 TEST(Mbsdf, ReturnsStoredValuesAtBinCentres) {
   const auto material = parse_mbsdf(small_mbsdf(9, 8), "m");
@@ -45,7 +44,7 @@ TEST(Mbsdf, InterpolatesLinearlyInTheOrderThetaInThetaOutPhi) {
 TEST(Mbsdf, WeightsAddUpToTwoPiSquared) {
   double total = 0;
   parse_mbsdf(small_mbsdf(5, 7), "m")->for_each_sample([&](const Sample& s) { total += s.weight; });
-  EXPECT_NEAR(total / (4 * kPi * kPi), 1, 1e-12);  // exact integrals of the bins
+  EXPECT_NEAR(total / (4 * std::numbers::pi * std::numbers::pi), 1, 1e-12);  // exact integrals of the bins
 }
 
 TEST(Mbsdf, DropsCopiesOfTheLastMeasuredAngleAndSwapsInstead) {
@@ -59,12 +58,12 @@ TEST(Mbsdf, DropsCopiesOfTheLastMeasuredAngleAndSwapsInstead) {
   const auto material = parse_mbsdf(small_mbsdf(18, 6, padded), "m");  // centres 2.5, 7.5, .. 87.5 deg; 1.0 = 57.3 deg
   EXPECT_EQ(material->coverage().padding, 6u * 18 * 6) << "62.5 to 87.5 deg; the first copy cannot be told from data";
   Direction l, v;
-  directions_at({80 * kPi / 180, 22.5 * kPi / 180, 1.0}, l, v);
+  directions_at({80 * std::numbers::pi / 180, 22.5 * std::numbers::pi / 180, 1.0}, l, v);
   Rgb f, swapped;
   ASSERT_TRUE(material->evaluate(l, v, f));
   ASSERT_TRUE(material->evaluate(v, l, swapped));
   EXPECT_EQ(f.r, swapped.r);
-  directions_at({80 * kPi / 180, 80 * kPi / 180, 1.0}, l, v);
+  directions_at({80 * std::numbers::pi / 180, 80 * std::numbers::pi / 180, 1.0}, l, v);
   EXPECT_FALSE(material->evaluate(l, v, f)) << "neither direction was in reach as the light's";
 }
 

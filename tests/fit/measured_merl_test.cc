@@ -15,7 +15,6 @@ namespace {
 
 using files::InputError;
 using test::kSmallMerl;
-constexpr double kPi = std::numbers::pi;
 
 std::string message_of(const std::function<void()>& act) {
   try {
@@ -54,10 +53,10 @@ TEST(Merl, LooksEveryBinCentreUpInItsOwnBin) {
 
 TEST(Merl, SpacesThetaHBySquareRoot) {
   const auto merl = parse_merl(numbered({}), "m");
-  EXPECT_EQ(merl->bin({88.1 * kPi / 180, 0, 0}) / 16200, 89u);  // bin 89 spans 88.01 to 90 degrees
-  EXPECT_EQ(merl->bin({87.9 * kPi / 180, 0, 0}) / 16200, 88u);
-  EXPECT_EQ(merl->bin({22.4 * kPi / 180, 0, 0}) / 16200, 44u);  // half of the bins lie below 22.5 degrees
-  EXPECT_EQ(merl->bin({22.6 * kPi / 180, 0, 0}) / 16200, 45u);
+  EXPECT_EQ(merl->bin({88.1 * std::numbers::pi / 180, 0, 0}) / 16200, 89u);  // bin 89 spans 88.01 to 90 degrees
+  EXPECT_EQ(merl->bin({87.9 * std::numbers::pi / 180, 0, 0}) / 16200, 88u);
+  EXPECT_EQ(merl->bin({22.4 * std::numbers::pi / 180, 0, 0}) / 16200, 44u);  // half of the bins lie below 22.5 degrees
+  EXPECT_EQ(merl->bin({22.6 * std::numbers::pi / 180, 0, 0}) / 16200, 45u);
 }
 
 TEST(Merl, ScalesChannelsAsThePaperDoes) {
@@ -95,11 +94,13 @@ TEST(Merl, WeightsOfAllPairsAboveTheHorizonAddUpToTwoPiSquared) {
   double total = 0, lambert = 0;
   merl->for_each_sample([&](const Sample& s) {
     total += s.weight;
-    lambert += s.weight * s.to_light.z * s.to_view.z / kPi;
+    lambert += s.weight * s.to_light.z * s.to_view.z / std::numbers::pi;
     ASSERT_GT(s.weight, 0);
   });
-  EXPECT_NEAR(total / (4 * kPi * kPi), 1, 5e-4);  // bins that the horizon cuts count whole or not: 1e-4 measured
-  EXPECT_NEAR(lambert / kPi, 1, 5e-4);  // integral of cos cos / pi = pi: the density is right, not only its sum
+  EXPECT_NEAR(total / (4 * std::numbers::pi * std::numbers::pi), 1,
+              5e-4);  // bins that the horizon cuts count whole or not: 1e-4 measured
+  EXPECT_NEAR(lambert / std::numbers::pi, 1,
+              5e-4);  // integral of cos cos / pi = pi: the density is right, not only its sum
 }
 
 TEST(Merl, DropsABinThatIsNegativeInOneChannelAndCountsNaN) {

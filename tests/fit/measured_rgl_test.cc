@@ -14,7 +14,6 @@ namespace {
 using files::InputError;
 using test::RglParts;
 using test::small_rgl;
-constexpr double kPi = std::numbers::pi;
 
 // A density without symmetry, 0 in a corner.
 Warp uneven() {
@@ -71,8 +70,9 @@ TEST(Rgl, WeightsCoverAllButTheLastThetaI) {
   parse_rgl(small_rgl({.theta = 9, .map = 16, .colors = 16}), "m")->for_each_sample([&](const Sample& s) {
     total += s.weight;
   });
-  const double last = std::cos((7.5 / 8) * kPi / 2);     // from half way to the last of nine theta_i
-  EXPECT_NEAR(total / (4 * kPi * kPi), 1 - last, 0.01);  // solid angles are sums over two grids
+  const double last = std::cos((7.5 / 8) * std::numbers::pi / 2);  // from half way to the last of nine theta_i
+  EXPECT_NEAR(total / (4 * std::numbers::pi * std::numbers::pi), 1 - last,
+              0.01);  // solid angles are sums over two grids
 }
 
 TEST(Rgl, RefusesAnisotropicAndSpectralFilesByName) {

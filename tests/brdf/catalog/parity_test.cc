@@ -9,7 +9,7 @@ namespace likeness::catalog {
 namespace {
 
 constexpr std::int64_t kUlps = 4;
-constexpr std::size_t kRows = 16 * 1024;
+constexpr std::size_t kParityRows = 16 * 1024;
 
 struct Worst {
   std::int64_t ulps = 0;
@@ -19,7 +19,7 @@ struct Worst {
 Worst worst_of(const Columns& want, const Columns& got) {
   Worst worst;
   for (std::size_t k = 0; k < want.size(); ++k)
-    for (std::size_t i = 0; i < kRows; ++i) {
+    for (std::size_t i = 0; i < kParityRows; ++i) {
       const std::int64_t ulps = ulps_between(got[k][i], want[k][i]);
       worst.unequal += ulps != 0;
       if (ulps > worst.ulps) worst = {ulps, worst.unequal, i, k, want[k][i], got[k][i]};
@@ -40,16 +40,18 @@ TEST_P(EveryEvaluator, AgreesWithTheBaselineToFourUlps) {
     ASSERT_TRUE(base.from_features && wide.from_features) << entry.name;
     for (std::size_t f = 0; f < entry.forms.size(); ++f) {
       const Form& form = entry.forms[f];
-      const Columns inputs = drawn_inputs(entry, form, kRows, 13 + f), features = features_of(entry, form, inputs);
+      const Columns inputs = drawn_inputs(entry, form, kParityRows, 13 + f),
+                    features = features_of(entry, form, inputs);
       const auto compare = [&](const char* from, const Columns& columns, Loop<float> with, Loop<float> without) {
         const auto in = columns_of(columns);
-        const Worst worst = worst_of(results_of(entry, without, in, kRows), results_of(entry, with, in, kRows));
-        compared += kRows * entry.output_count;
-        equal += kRows * entry.output_count - worst.unequal;
+        const Worst worst =
+            worst_of(results_of(entry, without, in, kParityRows), results_of(entry, with, in, kParityRows));
+        compared += kParityRows * entry.output_count;
+        equal += kParityRows * entry.output_count - worst.unequal;
         EXPECT_LE(worst.ulps, kUlps) << entry.name << " from " << from << ": output " << worst.output << " is "
                                      << worst.got << " with " << GetParam() << ", " << worst.want << " without, at"
                                      << row_text(columns, worst.row) << "; " << worst.unequal << " of "
-                                     << kRows * entry.output_count << " values differ";
+                                     << kParityRows * entry.output_count << " values differ";
       };
       compare("features", features, wide.from_features, base.from_features);
       if (f == 0) compare("inputs", inputs, wide.from_inputs, base.from_inputs);

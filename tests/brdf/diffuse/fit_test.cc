@@ -10,7 +10,6 @@ namespace likeness::brdf {
 namespace {
 
 using Model = MicrofacetDiffuseFit<double>;
-constexpr double kPi = std::numbers::pi;
 
 TEST(MicrofacetDiffuseFit, HasTheNumbersOfItsProgram) {
   const LeastSquares fit = least_squares(20000);
@@ -77,8 +76,8 @@ TEST(MicrofacetDiffuseFit, ReflectsWhatItSaysAndNeverMoreThanItReceives) {
       for (std::size_t k = 0; k < ArcRule<double>::kNode.size(); ++k)
         for (int sector = 0; sector < 4; ++sector) {
           const double cos_i = ArcRule<double>::kNode[k];
-          const Geometry<double> g(Random::direction_at(cos_i, (sector + 0.5) * kPi / 2), v);
-          sum += ArcRule<double>::kWeight[k] * kPi / 2 * model.eval_cos(g).r;
+          const Geometry<double> g(Random::direction_at(cos_i, (sector + 0.5) * std::numbers::pi / 2), v);
+          sum += ArcRule<double>::kWeight[k] * std::numbers::pi / 2 * model.eval_cos(g).r;
         }
       EXPECT_NEAR(sum, model.albedo(cos_o).r, 1e-14);
       EXPECT_LE(sum, 1 + 1e-14);
@@ -91,8 +90,8 @@ TEST(MicrofacetDiffuseFit, IsNowhereNegative) {
   for (int a = 0; a <= 50; ++a)
     for (int o = 1; o <= 50; ++o)
       for (int i = 1; i <= 50; ++i)  // s enters linearly, so an end of its range is the least
-        for (const double phi : {0.0, kPi}) {
-          const Model model{.base_color = Rgb<double>(kPi), .alpha = a / 50.0};
+        for (const double phi : {0.0, std::numbers::pi}) {
+          const Model model{.base_color = Rgb<double>(std::numbers::pi), .alpha = a / 50.0};
           least = std::min(least, model.eval(at_height(i / 50.0, 0), at_height(o / 50.0, phi)).r);
         }
   EXPECT_GT(least, 0.15);  // 0.155 measured, at grazing light and view from opposite sides and alpha 0.82
@@ -136,8 +135,8 @@ TYPED_TEST(MicrofacetDiffuseFitIn, IsItsFormula) {
     const auto p = at.pair();
     const auto& k = Model::kCoefficients;
     const double s = p.sin_i * p.sin_o * p.cos_phi, q = p.cos_i * p.cos_i + p.cos_o * p.cos_o;
-    const double f =
-        0.3 / kPi * (1 + at.alpha * (s * (k[0] + k[1] * at.alpha + (k[2] + k[3] * at.alpha) * q) - k[4] * (q - 0.5)));
+    const double f = 0.3 / std::numbers::pi *
+                     (1 + at.alpha * (s * (k[0] + k[1] * at.alpha + (k[2] + k[3] * at.alpha) * q) - k[4] * (q - 0.5)));
     const double theta_i = std::acos(p.cos_i), theta_o = std::acos(p.cos_o),
                  tolerance = kIsFloat<TypeParam> ? 2e-6 : 1e-13;
     const auto angles = evaluate_row<Row, TypeParam, std::tuple_element_t<2, Row::Forms>>(

@@ -8,7 +8,7 @@
 namespace likeness::brdf {
 namespace {
 
-constexpr double kPi = std::numbers::pi, kDegree = kPi / 180;
+constexpr double kDegree = std::numbers::pi / 180;
 
 template <class S>
 class MicrofacetIntegral : public ::testing::Test {};
@@ -45,11 +45,11 @@ TYPED_TEST(MicrofacetIntegral, IsLambertToTheLastBitAtAlphaZero) {
   for (const double theta : {0.0, 0.5, 1.5, 89.9 * kDegree}) {
     const auto got = evaluate_row<MicrofacetDiffuseRow, S>({0, theta, 0.3, 1.0});
     EXPECT_EQ(got[0], first(constant<S>(std::numbers::inv_pi)));
-    EXPECT_NEAR(got[1], std::cos(0.3) / kPi, kIsFloat<S> ? 1e-7 : 1e-16);  // a product
+    EXPECT_NEAR(got[1], std::cos(0.3) / std::numbers::pi, kIsFloat<S> ? 1e-7 : 1e-16);  // a product
     // and nearly so at its next alphas: no jump
     for (const double alpha : {1e-30, 1e-17, 1e-12, 1e-6})
       EXPECT_NEAR(
-          (evaluate_row<MicrofacetDiffuseRow, S>({alpha, theta, 0.3, 1.0})[0] * kPi), 1,
+          (evaluate_row<MicrofacetDiffuseRow, S>({alpha, theta, 0.3, 1.0})[0] * std::numbers::pi), 1,
           kIsFloat<S> ? 5e-6 : 3e-8 + 10 * alpha * std::tan(theta));  // 14 nodes at 89.9 degrees: 1.4e-8 measured
   }
 }
@@ -76,7 +76,7 @@ TYPED_TEST(MicrofacetIntegral, IsFiniteFromInputsInItsOwnPrecision) {
   using S = TypeParam;
   Random random(8);
   const double kAngles[]{0, 1e-30, 1e-8, 1e-3, 0.7, 1.5707, 89.9 * kDegree, kHalfPi};
-  const double kAzimuths[]{0, 1e-30, 1e-7, 1, kHalfPi, 3.1415, kPi, 4, 2 * kPi};
+  const double kAzimuths[]{0, 1e-30, 1e-7, 1, kHalfPi, 3.1415, std::numbers::pi, 4, 2 * std::numbers::pi};
   const double kAlphas[]{0, 1e-30, 1e-4, 0.01, 0.5, 1};
   for (int i = 0; i < 5000; ++i) {
     const S in[]{constant<S>(kAlphas[random.index(6)]), constant<S>(kAngles[random.index(8)]),
@@ -99,7 +99,7 @@ TEST(MicrofacetDiffuse, IsReciprocalAndEvenInTheAzimuth) {
     const double o = std::acos(at.cos_o), i = std::acos(at.cos_i), f = f_at(at.alpha, o, i, at.phi);
     EXPECT_LE(relative_difference(f, f_at(at.alpha, i, o, at.phi)), 1e-14);  // the arcs change places: 6e-16 measured
     EXPECT_LE(relative_difference(f, f_at(at.alpha, o, i, -at.phi)), 1e-14);
-    EXPECT_LE(relative_difference(f, f_at(at.alpha, o, i, 2 * kPi - at.phi)),
+    EXPECT_LE(relative_difference(f, f_at(at.alpha, o, i, 2 * std::numbers::pi - at.phi)),
               1e-13);  // an azimuth rounded anew: 2e-15 measured
   }
 }
@@ -113,10 +113,11 @@ TEST(MicrofacetDiffuse, SendsWhatItsFacetsReceive) {
       const int steps = 60;
       for (int a = 0; a < steps; ++a)
         for (int b = 0; b < steps; ++b) {
-          const double root = (a + 0.5) / steps, phi = kPi * (b + 0.5) / steps;  // midpoints in sqrt(cos_i)
+          const double root = (a + 0.5) / steps,
+                       phi = std::numbers::pi * (b + 0.5) / steps;  // midpoints in sqrt(cos_i)
           sum += microfacet_diffuse(alpha, PolarPair<double>::at(theta, std::acos(root * root), phi)).f_cos * 4 * root;
         }
-      const double albedo = kPi * sum / (steps * steps);
+      const double albedo = std::numbers::pi * sum / (steps * steps);
       // the midpoint rule: 1.5e-4 measured at alpha 0.1 and 80 degrees
       EXPECT_NEAR(albedo, microfacet_diffuse_albedo(alpha, std::cos(theta), std::sin(theta)), 5e-4) << alpha << degrees;
     }
@@ -128,8 +129,8 @@ TEST(MicrofacetDiffuse, SendsWhatItsFacetsReceive) {
 // alpha = 1 is the hemisphere, D = 1 / pi. Seen from above it is a half moon integrated: elementary.
 TEST(MicrofacetDiffuse, IsElementaryForAHemisphereSeenFromAbove) {
   for (const double theta : {0.0, 1e-7, 0.4, 1.0, 1.4, 89.9 * kDegree})
-    EXPECT_NEAR(f_at(1, 0, theta, 0) * std::cos(theta) * kPi,
-                2 / (3 * kPi) * ((kPi - theta) * std::cos(theta) + std::sin(theta)),
+    EXPECT_NEAR(f_at(1, 0, theta, 0) * std::cos(theta) * std::numbers::pi,
+                2 / (3 * std::numbers::pi) * ((std::numbers::pi - theta) * std::cos(theta) + std::sin(theta)),
                 1e-14);  // rounding: 2e-16 measured
 }
 
@@ -143,7 +144,7 @@ TEST(MicrofacetDiffuse, HasNoJumpWhereItsFormulasChange) {
     for (const double o : {0.2, 1.0, 1.5})
       for (const double i : {0.2, 0.9, 1.5}) {
         // 2.7e-9 measured: the slope of f by an azimuth is up to 14 times f
-        for (const double phi : {kPi - 1, kPi / 2, 0.0, kPi})
+        for (const double phi : {std::numbers::pi - 1, std::numbers::pi / 2, 0.0, std::numbers::pi})
           expect_near(f_at(alpha, o, i, phi - h), f_at(alpha, o, i, phi + h), 1e-8, "azimuth");
         expect_near(f_at(alpha, o, i, 1e-14), f_at(alpha, o, i, 0), 1e-10, "azimuth of nearly 0");
         expect_near(f_at(alpha, o, o - h, 0), f_at(alpha, o, o + h, 0), 2e-8, "equal angles");
@@ -168,12 +169,12 @@ TEST(MicrofacetDiffuse, IsSmoothAlongEveryInput) {
     }
     EXPECT_LE(worst, 3e-8);  // the fourth derivative near 1.5 itself: 1.3e-8 measured
   };
-  for (const double phi : {0.0, 1.0, 2.9, kPi}) {
+  for (const double phi : {0.0, 1.0, 2.9, std::numbers::pi}) {
     expect_smooth([&](double x) { return f_at(x, 1.2, 0.9, phi); }, 0.05, 1);
     expect_smooth([&](double x) { return f_at(0.3, x, 0.9, phi); }, 0.05, 1.5);
     expect_smooth([&](double x) { return f_at(0.05, 0.5, x, phi); }, 0.05, 1.5);
   }
-  expect_smooth([&](double x) { return f_at(0.3, 1.2, 0.9, x); }, 0, kPi);
+  expect_smooth([&](double x) { return f_at(0.3, 1.2, 0.9, x); }, 0, std::numbers::pi);
   expect_smooth([&](double x) { return f_at(0.05, 1.5, 1.5, x); }, 0.05, 3.1);
 }
 
@@ -181,7 +182,7 @@ TEST(MicrofacetDiffuse, IsTheSameFromAnglesAndFromVectors) {
   Random random(12);
   double worst = 0, worst_in_float = 0;
   for (int n = 0; n < 20000; ++n) {
-    const double alpha = random.uniform(), o = random.uniform(0, 1.55), phi = random.uniform(0, 2 * kPi);
+    const double alpha = random.uniform(), o = random.uniform(0, 1.55), phi = random.uniform(0, 2 * std::numbers::pi);
     const double i = n % 3 == 0 ? o + random.uniform(-1e-6, 1e-6) : random.uniform(0, 1.55);
     const double azimuth = n % 3 == 0 ? random.uniform(-1e-6, 1e-6) : phi;
     const Vec3<double> l(std::sin(i) * std::cos(0.7), std::sin(i) * std::sin(0.7), std::cos(i));
@@ -210,7 +211,7 @@ double worst_lane() {
     std::array<double, S::size> want;
     for (std::size_t lane = 0; lane < S::size; ++lane) {
       const double in[]{random.index(4) ? random.uniform() : 0, random.uniform(0, 1.57), random.uniform(0, 1.57),
-                        random.uniform(0, kPi)};
+                        random.uniform(0, std::numbers::pi)};
       double row[kAlphaFeatures];
       AlphaAndAngles::prepare(in, row);
       Number rounded[kAlphaFeatures], out[2];

@@ -6,8 +6,6 @@
 namespace likeness::brdf {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 const MicrofacetDiffuseTable<1>& coplanar() { return MicrofacetDiffuseLut::tables(); }
 const MicrofacetDiffuseTable<3>& azimuths() { return MicrofacetDiffuseAzimuthLut::tables(); }
 
@@ -49,7 +47,7 @@ TEST(MicrofacetDiffuseTables, HoldTheIntegralAtTheirNodes) {
           const auto theta = [&](std::size_t k) {  // tan(theta') = alpha tan(theta), k / 15 = tan(theta' / 2)
             return std::atan(std::tan(2 * std::atan(double(k) / 15)) / alpha);
           };
-          const auto p = PolarPair<double>::at(theta(o), theta(i), double(azimuth) * kPi / 2);
+          const auto p = PolarPair<double>::at(theta(o), theta(i), double(azimuth) * std::numbers::pi / 2);
           const double want = microfacet_diffuse(alpha, p).f;
           EXPECT_LE(relative_difference(azimuths().eval(alpha, p).f, want), 1e-6) << a << " " << o << " " << i;
           if (azimuth > 0) continue;

@@ -13,11 +13,11 @@ namespace {
 
 using testing::HasSubstr;
 
-const catalog::Entry kToy = test::toy();
+const catalog::Entry kToyEntry = test::toy();
 
 Rows rows_of(std::string_view header, Precision precision = Precision::kDouble,
              const std::vector<Assignment>& assignments = {}) {
-  return {kToy, header, assignments, precision, "t.csv"};
+  return {kToyEntry, header, assignments, precision, "t.csv"};
 }
 
 std::string text_of(std::string_view header, std::string_view lines, Precision precision = Precision::kDouble) {

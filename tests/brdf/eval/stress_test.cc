@@ -93,11 +93,11 @@ TEST(Stress, FindsAnErrorAndWhereItIs) {
 
 // The result is small because two inputs cancel: its error is large, but one ulp of an input does as much.
 TEST(Stress, AnErrorThatRoundedInputsExplainIsSmallInTheirUnits) {
-  static constexpr std::array kInputs{
+  static constexpr std::array kOneInput{
       brdf::Parameter{.name = "a", .initial = 1, .range = {1, 2}, .typical = {1, 2}, .text = "a"}};
   static constexpr std::array kOutputs{brdf::Output{.name = "s", .may_be_negative = true, .text = "sin(1000 a)"}};
   Entry entry = test::toy();
-  entry.forms = {{kInputs, 1, nullptr}};
+  entry.forms = {{kOneInput, 1, nullptr}};
   entry.outputs = kOutputs;
   entry.output_count = entry.features = 1;
   entry.in_double.from_inputs = [](const void*, const Column<double>* in, double* const* out, std::size_t n) {

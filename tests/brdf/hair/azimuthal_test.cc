@@ -9,16 +9,14 @@
 namespace likeness::brdf {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 template <class S>
 class HairAzimuth : public ::testing::Test {};
 TYPED_TEST_SUITE(HairAzimuth, Kinds, KindNames);
 
 TEST(TrimmedLogistic, IntegratesToOneForEveryWidth) {
   for (double s = 1e-4; s < 20; s *= 1.7) {
-    std::vector<double> ends{0, kPi};
-    for (double d = 2 * s; d < kPi; d *= 2) ends.push_back(d);
+    std::vector<double> ends{0, std::numbers::pi};
+    for (double d = 2 * s; d < std::numbers::pi; d *= 2) ends.push_back(d);
     const Nodes nodes(ends);
     double sum = 0;
     for (std::size_t i = 0; i < nodes.at.size(); ++i) sum += 2 * nodes.weight[i] * trimmed_logistic(nodes.at[i], s);
@@ -29,11 +27,11 @@ TEST(TrimmedLogistic, IntegratesToOneForEveryWidth) {
 TYPED_TEST(HairAzimuth, TheLogisticIsSoundAtItsPeakAndFarFromIt) {
   using S = TypeParam;
   for (const double s : {1e-4, 1e-3, 0.1, 4.3, 100.0})
-    for (const double x : {0.0, 1e-7, 1e-3, 1.0, kPi}) {
+    for (const double x : {0.0, 1e-7, 1e-3, 1.0, std::numbers::pi}) {
       const double d = first(trimmed_logistic(constant<S>(x), constant<S>(s)));
       EXPECT_TRUE(std::isfinite(d) && d >= 0) << s << " " << x;
       if (x == 0) {
-        EXPECT_NEAR(d * 4 * s * std::tanh(kPi / (2 * s)), 1, kIsFloat<S> ? 1e-6 : 1e-14);
+        EXPECT_NEAR(d * 4 * s * std::tanh(std::numbers::pi / (2 * s)), 1, kIsFloat<S> ? 1e-6 : 1e-14);
       }
     }
 }
@@ -44,10 +42,10 @@ TYPED_TEST(HairAzimuth, LogisticSamplesAreTheInverseOfItsIntegral) {
     double before = -4;
     for (const double u : {0.0, 1e-7, 0.01, 0.3, 0.5, 0.8, 0.99, 1 - 0x1p-24}) {
       const double x = first(sample_trimmed_logistic(constant<S>(s), constant<S>(u)));
-      EXPECT_LE(std::abs(x), kPi * (1 + 1e-7));
+      EXPECT_LE(std::abs(x), std::numbers::pi * (1 + 1e-7));
       EXPECT_GE(x, before) << s << " " << u;
       before = x;
-      const double integral = 0.5 + 0.5 * std::tanh(x / (2 * s)) / std::tanh(kPi / (2 * s));
+      const double integral = 0.5 + 0.5 * std::tanh(x / (2 * s)) / std::tanh(std::numbers::pi / (2 * s));
       EXPECT_NEAR(integral, u, kIsFloat<S> ? 2e-6 : 1e-14) << s << " " << u;
     }
   }
@@ -122,11 +120,11 @@ TYPED_TEST(HairAzimuth, TheNearFieldIsSoundWhereverItsInputsAreAllowed) {
   using S = TypeParam;
   for (const double p : {0.0, 1.0, 2.0, 3.0})
     for (const double h : {-1.0, -1 + 1e-7, 0.0, 1e-9, 0.5, 1.0})
-      for (const double theta : {-kPi / 2, -1.5, 0.0, kPi / 2 - 1e-7, kPi / 2})
+      for (const double theta : {-std::numbers::pi / 2, -1.5, 0.0, std::numbers::pi / 2 - 1e-7, std::numbers::pi / 2})
         for (const double sigma_a : {0.0, 0.3, 1e6})
           for (const double eta : {1.0, 1.0001, 1.55})
             for (const double s : {1e-3, 0.2, 4.3})
-              for (const double phi : {-2 * kPi, -kPi, 0.0, 1.0, kPi}) {
+              for (const double phi : {-2 * std::numbers::pi, -std::numbers::pi, 0.0, 1.0, std::numbers::pi}) {
                 const auto n = evaluate_row<HairNear, S>(near_row(p, phi, h, s, sigma_a, eta, theta));
                 ASSERT_TRUE(std::isfinite(n[0]) && n[0] >= 0)
                     << p << " " << phi << " " << h << " " << s << " " << sigma_a << " " << eta << " " << theta;
@@ -148,11 +146,11 @@ double near_field(double p, double phi, double h, double s, double theta) {
 TEST(HairNearField, IsTheSameAfterAWholeTurnAndMirrored) {
   Random random(3);
   for (int i = 0; i < 2000; ++i) {
-    const double p = double(random.index(4)), phi = random.uniform(-kPi, kPi), h = random.uniform(-1, 1),
-                 s = random.uniform(0.05, 1), theta = random.uniform(-1.5, 1.5);
+    const double p = double(random.index(4)), phi = random.uniform(-std::numbers::pi, std::numbers::pi),
+                 h = random.uniform(-1, 1), s = random.uniform(0.05, 1), theta = random.uniform(-1.5, 1.5);
     const double n = near_field(p, phi, h, s, theta);
-    EXPECT_LE(relative_difference(n, near_field(p, phi + 2 * kPi, h, s, theta)), 1e-12);
-    EXPECT_LE(relative_difference(n, near_field(p, phi - 2 * kPi, h, s, theta)), 1e-12);
+    EXPECT_LE(relative_difference(n, near_field(p, phi + 2 * std::numbers::pi, h, s, theta)), 1e-12);
+    EXPECT_LE(relative_difference(n, near_field(p, phi - 2 * std::numbers::pi, h, s, theta)), 1e-12);
     EXPECT_LE(relative_difference(n, near_field(p, -phi, -h, s, theta)), 1e-12);
     EXPECT_LE(relative_difference(n, near_field(p, phi, h, s, -theta)), 1e-12);
   }
@@ -162,14 +160,14 @@ TEST(HairNearField, IsTheSameAfterAWholeTurnAndMirrored) {
 TEST(HairNearField, DoesNotJumpInAzimuthOrOffset) {
   for (const double p : {0.0, 1.0, 2.0, 3.0})
     for (const double s : {0.1, 0.5}) {
-      double before = near_field(p, -2 * kPi, 0.3, s, 0.4);
-      for (double phi = -2 * kPi; phi < 2 * kPi; phi += 1e-3) {
+      double before = near_field(p, -2 * std::numbers::pi, 0.3, s, 0.4);
+      for (double phi = -2 * std::numbers::pi; phi < 2 * std::numbers::pi; phi += 1e-3) {
         const double here = near_field(p, phi, 0.3, s, 0.4);
         EXPECT_LE(relative_difference(here, before), 1.01e-3 / s);  // |D'| <= D / s
         before = here;
       }
       before = near_field(p, 1, -1, s, 0.4);
-      for (double gamma = -kPi / 2; gamma < kPi / 2; gamma += 1e-4) {
+      for (double gamma = -std::numbers::pi / 2; gamma < std::numbers::pi / 2; gamma += 1e-4) {
         const double here = near_field(p, 1, std::sin(gamma), s, 0.4);
         EXPECT_LE(std::abs(here - before), 2e-4 / (s * s)) << p << " " << gamma;
         before = here;
@@ -189,9 +187,9 @@ TEST(HairNearDerivatives, AreFiniteAndThoseOfADifference) {
   };
   Random random(4);
   for (int i = 0; i < 3000; ++i) {
-    auto row =
-        near_row(double(random.index(4)), random.uniform(-kPi, kPi), random.uniform(-0.99, 0.99),
-                 random.uniform(0.1, 1), random.uniform(0.01, 2), random.uniform(1.2, 1.8), random.uniform(-1.4, 1.4));
+    auto row = near_row(double(random.index(4)), random.uniform(-std::numbers::pi, std::numbers::pi),
+                        random.uniform(-0.99, 0.99), random.uniform(0.1, 1), random.uniform(0.01, 2),
+                        random.uniform(1.2, 1.8), random.uniform(-1.4, 1.4));
     const Jet n = jet_of(row);
     for (std::size_t k = 0; k < 3; ++k) {
       const double x = row[3 + k], step = 1e-5;
@@ -203,13 +201,13 @@ TEST(HairNearDerivatives, AreFiniteAndThoseOfADifference) {
       row[3 + k] = x;
       const auto path = fibre_path(row[2], std::cos(row[6]), row[5]);
       const double distance = azimuth_distance(row[0], row[1], path.gamma_i, path.gamma_t);
-      if (distance < 1e-3 || distance > kPi - 1e-3) continue;  // |x| has a kink at the peak and at the cut
+      if (distance < 1e-3 || distance > std::numbers::pi - 1e-3) continue;  // |x| has a kink at the peak and at the cut
       EXPECT_NEAR(n.v[int(k)], slope, 1e-5 * (std::abs(slope) + n.a)) << i << " by " << k;
     }
   }
   for (const double p : {0.0, 1.0, 2.0, 3.0})
     for (const double h : {-1.0, 0.0, 1.0})
-      for (const double theta : {0.0, kPi / 2})
+      for (const double theta : {0.0, std::numbers::pi / 2})
         for (const double sigma_a : {0.0, 1e6})
           for (const double eta : {1.0, 1.55}) {
             const Jet n = jet_of(near_row(p, 0.5, h, 0.2, sigma_a, eta, theta));

@@ -9,8 +9,6 @@
 namespace likeness::brdf {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 struct Far {
   int p;
   double phi, s, sigma_a, eta, theta;
@@ -19,14 +17,14 @@ struct Far {
   double by_brute_force(int steps) const {
     double sum = 0;
     for (int i = 0; i < steps; ++i) {
-      const double gamma = kPi * ((i + 0.5) / steps - 0.5);
+      const double gamma = std::numbers::pi * ((i + 0.5) / steps - 0.5);
       const double row[]{double(p), phi, std::sin(gamma), s, sigma_a, eta, theta};
       double features[HairNear::kFeatures], out[1];
       HairNear::Form::prepare(row, features);
       HairNear::evaluate(features, out);
       sum += out[0] * std::cos(gamma);
     }
-    return 0.5 * sum * kPi / steps;
+    return 0.5 * sum * std::numbers::pi / steps;
   }
 };
 std::ostream& operator<<(std::ostream& out, const Far& f) {
@@ -37,8 +35,9 @@ std::ostream& operator<<(std::ostream& out, const Far& f) {
 TEST(HairFar, IsTheMeanOfTheNearFieldOverTheWidth) {
   Random random(1);
   for (int i = 0; i < 60; ++i) {
-    const Far far{int(random.index(4)), random.uniform(-kPi, kPi), random.uniform(0.02, 1),
-                  random.uniform(0, 2), random.uniform(1.1, 2.5),  random.uniform(-1.5, 1.5)};
+    const Far far{int(random.index(4)),     random.uniform(-std::numbers::pi, std::numbers::pi),
+                  random.uniform(0.02, 1),  random.uniform(0, 2),
+                  random.uniform(1.1, 2.5), random.uniform(-1.5, 1.5)};
     // The midpoint rule does not see the cut: 3e-7 of the peak at 40000 steps.
     EXPECT_NEAR(far.at(), far.by_brute_force(40000), 1e-6 * (far.at() + 0.01)) << far;
   }
@@ -50,7 +49,7 @@ TEST(HairFar, IsAsExactAsItIsAskedToBe) {
   Random random(2);
   for (int i = 0; i < 300; ++i) {
     const Far far{int(random.index(3)),
-                  random.uniform(-kPi, kPi),
+                  random.uniform(-std::numbers::pi, std::numbers::pi),
                   std::pow(10, random.uniform(-3, 0.3)),
                   random.uniform() < 0.3 ? 0 : std::pow(10, random.uniform(-2, 2)),
                   random.uniform(1.05, 2.2),
@@ -66,7 +65,7 @@ TEST(HairFar, HoldsAtTheCausticOfTrt) {
   for (const double theta : {0.0, 0.7}) {
     const double eta = 1.55, ratio = std::cos(theta) / std::sqrt(eta * eta - std::pow(std::sin(theta), 2));
     const double h = std::sqrt((4 - 1 / (ratio * ratio)) / 3);
-    const double caustic = 4 * std::asin(h * ratio) - 2 * std::asin(h) + 2 * kPi;
+    const double caustic = 4 * std::asin(h * ratio) - 2 * std::asin(h) + 2 * std::numbers::pi;
     for (const double s : {1e-3, 0.01, 0.1})
       for (const double off : {-0.1, -1e-4, 0.0, 1e-9, 1e-4, 0.1}) {
         const Far far{2, caustic + off, s, 0.1, eta, theta};
@@ -82,7 +81,7 @@ TEST(HairFar, WithoutAbsorptionAllLobesTogetherSendOutAllLight) {
       for (const double s : {0.05, 0.4}) {
         // Even panels over phi, fine enough for the peaks; the far field is as smooth as its logistic.
         std::vector<double> ends;
-        for (int i = 0; i <= 60; ++i) ends.push_back(-kPi + i * kPi / 30);
+        for (int i = 0; i <= 60; ++i) ends.push_back(-std::numbers::pi + i * std::numbers::pi / 30);
         const Nodes nodes(ends);
         double sum = 0;
         for (std::size_t i = 0; i < nodes.at.size(); ++i)
@@ -93,11 +92,11 @@ TEST(HairFar, WithoutAbsorptionAllLobesTogetherSendOutAllLight) {
 
 TEST(HairFar, IsSoundWhereverItsInputsAreAllowed) {
   for (int p = 0; p < kHairLobes; ++p)
-    for (const double phi : {-2 * kPi, -kPi, 0.0, 1e-9, 1.0, kPi})
+    for (const double phi : {-2 * std::numbers::pi, -std::numbers::pi, 0.0, 1e-9, 1.0, std::numbers::pi})
       for (const double s : {1e-3, 0.2, 10.0})
         for (const double sigma_a : {0.0, 1e-3, 100.0, 1e6})
           for (const double eta : {1.0, 1.0001, 1.55, 2.0, 3.0})
-            for (const double theta : {0.0, 1.5, kPi / 2 - 1e-7, kPi / 2}) {
+            for (const double theta : {0.0, 1.5, std::numbers::pi / 2 - 1e-7, std::numbers::pi / 2}) {
               const Far far{p, phi, s, sigma_a, eta, theta};
               const double n = far.at(1e-6);
               ASSERT_TRUE(std::isfinite(n) && n >= 0) << far;
@@ -124,11 +123,16 @@ TEST(HairFar, EndsForEveryInput) {
 TEST(HairFar, IsTheSameAfterAWholeTurnAndMirrored) {
   Random random(5);
   for (int i = 0; i < 200; ++i) {
-    Far far{int(random.index(3)), random.uniform(-kPi, kPi), random.uniform(0.05, 1), 0.3, 1.55, 0.4};
+    Far far{int(random.index(3)),
+            random.uniform(-std::numbers::pi, std::numbers::pi),
+            random.uniform(0.05, 1),
+            0.3,
+            1.55,
+            0.4};
     const double n = far.at();
-    far.phi += 2 * kPi;
+    far.phi += 2 * std::numbers::pi;
     EXPECT_LE(relative_difference(n, far.at()), 2e-9);
-    far.phi = 2 * kPi - far.phi;
+    far.phi = 2 * std::numbers::pi - far.phi;
     EXPECT_LE(relative_difference(n, far.at()), 2e-9);
   }
 }
@@ -138,7 +142,7 @@ TEST(HairFarDerivatives, AreThoseOfADifference) {
   Random random(6);
   for (int i = 0; i < 100; ++i) {
     const int p = int(random.index(4));
-    const double phi = random.uniform(-kPi, kPi), cos_theta = random.uniform(0.1, 1);
+    const double phi = random.uniform(-std::numbers::pi, std::numbers::pi), cos_theta = random.uniform(0.1, 1);
     std::array<double, 3> x{random.uniform(0.1, 0.8), random.uniform(0.01, 2), random.uniform(1.2, 1.8)};
     const Jet n = hair_far(p, Jet(phi), Jet(x[0], 0), Jet(x[1], 1), Jet(x[2], 2), Jet(cos_theta), 1e-12);
     for (std::size_t k = 0; k < 3; ++k) {

@@ -8,8 +8,6 @@
 namespace likeness::brdf {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 struct Place {
   double theta_i, theta_o, phi, h;
 };
@@ -30,7 +28,7 @@ TYPED_TEST_SUITE(HairFibreKinds, Kinds, KindNames);
 
 TYPED_TEST(HairFibreKinds, IsSoundInEveryHardCase) {
   using S = TypeParam;
-  const double pole = kPi / 2;
+  const double pole = std::numbers::pi / 2;
   for (const double beta_m : {0.0, 0.05, 1.0})
     for (const double beta_n : {0.0, 0.3, 1.0})
       for (const double sigma_a : {0.0, 1e6})
@@ -45,7 +43,7 @@ TYPED_TEST(HairFibreKinds, IsSoundInEveryHardCase) {
             for (const double a : {-pole, -0.5, 0.0, pole - 1e-7, pole})
               for (const double b : {-pole, 0.0, 0.5, pole - 1e-7, pole})
                 for (const double h : {-1.0, 0.0, 1.0})
-                  for (const double phi : {0.0, 1.0, kPi}) {
+                  for (const double phi : {0.0, 1.0, std::numbers::pi}) {
                     for (const double x : values<S>({a, b, phi, h}, fibre))
                       ASSERT_TRUE(std::isfinite(x) && x >= 0)
                           << x << " at " << beta_m << " " << beta_n << " " << sigma_a << " " << eta << " " << tilt
@@ -66,8 +64,8 @@ TYPED_TEST(HairFibreKinds, AgreesWithDouble) {
   Random random(1);
   for (int i = 0; i < 5000; ++i) {
     const auto fibre = random_model<HairFibre<double>>(random, [](const Parameter& row) { return row.typical; });
-    const Place at{random.uniform(-1.5, 1.5), random.uniform(-1.5, 1.5), random.uniform(-kPi, kPi),
-                   random.uniform(-1, 1)};
+    const Place at{random.uniform(-1.5, 1.5), random.uniform(-1.5, 1.5),
+                   random.uniform(-std::numbers::pi, std::numbers::pi), random.uniform(-1, 1)};
     const auto want = values<double>(at, fibre), got = values<S>(at, fibre);
     for (std::size_t k = 0; k < want.size(); ++k)
       ASSERT_LE(relative_difference(got[k], want[k], 1e-33), kIsFloat<S> ? 2e-5 : 1e-12) << i << " output " << k;
@@ -78,12 +76,13 @@ TEST(HairFibreForms, AreOneAnother) {
   Random random(2);
   for (int i = 0; i < 1000; ++i) {
     const auto fibre = random_model<HairFibre<double>>(random, [](const Parameter& row) { return row.typical; });
-    const Place at{random.uniform(-1.5, 1.5), random.uniform(-1.5, 1.5), random.uniform(-kPi, kPi),
-                   random.uniform(-1, 1)};
+    const Place at{random.uniform(-1.5, 1.5), random.uniform(-1.5, 1.5),
+                   random.uniform(-std::numbers::pi, std::numbers::pi), random.uniform(-1, 1)};
     const auto direction = [](double theta, double phi) {
       return Vec3<double>{std::sin(theta), std::cos(theta) * std::cos(phi), std::cos(theta) * std::sin(phi)};
     };
-    const double turned = random.uniform(-kPi, kPi);  // only the difference of azimuths matters
+    const double turned =
+        random.uniform(-std::numbers::pi, std::numbers::pi);  // only the difference of azimuths matters
     const Vec3<double> light = direction(at.theta_i, at.phi + turned), view = direction(at.theta_o, turned);
     std::vector<double> axes{light.x, light.y, light.z, view.x, view.y, view.z, at.h};
     for (const double x : channels_of(fibre)) axes.push_back(x);
@@ -124,7 +123,7 @@ TEST(HairTilt, MovesRTowardsTheRootByTwiceItsAngle) {
         where = theta_i;
       }
     }
-    EXPECT_NEAR(where + 0.1, -2 * tilt * kPi / 180, 1.5e-3) << tilt;  // the cosines skew M: 1e-3 measured
+    EXPECT_NEAR(where + 0.1, -2 * tilt * std::numbers::pi / 180, 1.5e-3) << tilt;  // the cosines skew M: 1e-3 measured
   }
 }
 TEST(HairTilt, MovesTtAndTrtTowardsTheTip) {
@@ -134,8 +133,8 @@ TEST(HairTilt, MovesTtAndTrtTowardsTheTip) {
   fibre.tilt_deg = 2;
   // TT straight behind (phi = pi); TRT at h = 0.9, at the azimuth it leaves by.
   const FibrePath<double> path = fibre_path(0.9, 1.0, 1.55);
-  const double trt = 4 * path.gamma_t - 2 * path.gamma_i + 2 * kPi;
-  for (const auto& [phi, h, shift] : {std::tuple{kPi, 0.0, 1.0}, {trt, 0.9, 4.0}}) {
+  const double trt = 4 * path.gamma_t - 2 * path.gamma_i + 2 * std::numbers::pi;
+  for (const auto& [phi, h, shift] : {std::tuple{std::numbers::pi, 0.0, 1.0}, {trt, 0.9, 4.0}}) {
     double best = 0, where = 0;
     for (double theta_i = -0.4; theta_i < 0.4; theta_i += 1e-4) {
       const double f = values<double>({theta_i, 0, phi, h}, fibre)[3];
@@ -144,7 +143,8 @@ TEST(HairTilt, MovesTtAndTrtTowardsTheTip) {
         where = theta_i;
       }
     }
-    EXPECT_NEAR(where, shift * 2 * kPi / 180, 0.01) << shift;  // a little of the other lobes is below the peak
+    EXPECT_NEAR(where, shift * 2 * std::numbers::pi / 180, 0.01)
+        << shift;  // a little of the other lobes is below the peak
   }
 }
 
@@ -152,9 +152,10 @@ TEST(HairRoughness, IsHeldAtItsFloorAndGrowsAboveIt) {
   EXPECT_EQ(hair_variance(0.0), hair_variance(0.01));
   EXPECT_EQ(hair_width(0.0), hair_width(0.01));
   EXPECT_NEAR(hair_variance(1.0), std::pow(0.726 + 0.812 + 3.7, 2), 1e-12);
-  EXPECT_NEAR(hair_width(1.0), std::sqrt(kPi / 8) * (0.265 + 1.194 + 5.372), 1e-12);
+  EXPECT_NEAR(hair_width(1.0), std::sqrt(std::numbers::pi / 8) * (0.265 + 1.194 + 5.372), 1e-12);
   EXPECT_NEAR(hair_variance(0.5), std::pow(0.726 * 0.5 + 0.812 * 0.25 + 3.7 * std::pow(0.5, 20), 2), 1e-15);
-  EXPECT_NEAR(hair_width(0.5), std::sqrt(kPi / 8) * (0.265 * 0.5 + 1.194 * 0.25 + 5.372 * std::pow(0.5, 22)), 1e-15);
+  EXPECT_NEAR(hair_width(0.5),
+              std::sqrt(std::numbers::pi / 8) * (0.265 * 0.5 + 1.194 * 0.25 + 5.372 * std::pow(0.5, 22)), 1e-15);
   for (double b = 0.01; b < 1; b += 0.01) {
     EXPECT_GT(hair_variance(b + 0.01), hair_variance(b));
     EXPECT_GT(hair_width(b + 0.01), hair_width(b));
@@ -163,14 +164,14 @@ TEST(HairRoughness, IsHeldAtItsFloorAndGrowsAboveIt) {
 
 // ---- derivatives by every parameter: sigma_a (3), eta, beta_m, beta_n, tilt_deg
 
-using Jet = ceres::Jet<double, 7>;
-std::array<Jet, 7> jets(const Place& at, const HairFibre<double>& fibre) {
+using FibreJet = ceres::Jet<double, 7>;
+std::array<FibreJet, 7> jets(const Place& at, const HairFibre<double>& fibre) {
   const auto row = row_of(at, fibre);
-  Jet in[11], features[HairFibreRow::kFeatures];
-  for (std::size_t i = 0; i < 11; ++i) in[i] = Jet(row[i]);
+  FibreJet in[11], features[HairFibreRow::kFeatures];
+  for (std::size_t i = 0; i < 11; ++i) in[i] = FibreJet(row[i]);
   for (int k = 0; k < 7; ++k) in[4 + k].v[k] = 1;
   HairFibreRow::Angles::prepare(in, features);
-  std::array<Jet, 7> out;
+  std::array<FibreJet, 7> out;
   HairFibreRow::evaluate(features, out.data());
   return out;
 }
@@ -183,8 +184,8 @@ TEST(HairFibreDerivatives, AreThoseOfADifference) {
       if (row.name == "beta_m" || row.name == "beta_n") return {0.2, 0.8};
       return row.typical;
     });
-    const Place at{random.uniform(-1.3, 1.3), random.uniform(-1.3, 1.3), random.uniform(-kPi, kPi),
-                   random.uniform(-0.98, 0.98)};
+    const Place at{random.uniform(-1.3, 1.3), random.uniform(-1.3, 1.3),
+                   random.uniform(-std::numbers::pi, std::numbers::pi), random.uniform(-0.98, 0.98)};
     const auto out = jets(at, fibre);
     for (std::size_t k = 0; k < 7; ++k) {
       const double step = k == 6 ? 1e-3 : 1e-5;
@@ -207,14 +208,14 @@ TEST(HairFibreDerivatives, AreFiniteInTheHardCases) {
   for (const double beta : {0.0, 0.3, 1.0})
     for (const double sigma_a : {0.0, 1e6})
       for (const double eta : {1.0, 1.55})
-        for (const double theta_i : {-kPi / 2, 0.0, 1.2})
-          for (const double theta_o : {-1.2, 0.0, kPi / 2 - 1e-7, kPi / 2})
+        for (const double theta_i : {-std::numbers::pi / 2, 0.0, 1.2})
+          for (const double theta_o : {-1.2, 0.0, std::numbers::pi / 2 - 1e-7, std::numbers::pi / 2})
             for (const double h : {-1.0, 0.0, 1.0}) {
               HairFibre<double> fibre;
               fibre.beta_m = fibre.beta_n = beta;
               fibre.sigma_a = Rgb<double>(sigma_a);
               fibre.eta = eta;
-              for (const Jet& x : jets({theta_i, theta_o, 0.5, h}, fibre))
+              for (const FibreJet& x : jets({theta_i, theta_o, 0.5, h}, fibre))
                 for (int k = 0; k < 7; ++k)
                   ASSERT_TRUE(std::isfinite(x.v[k])) << beta << " " << sigma_a << " " << eta << " " << theta_i << " "
                                                      << theta_o << " " << h << " by " << k;

@@ -8,8 +8,6 @@
 namespace likeness::brdf {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 std::vector<double> row_of(double theta_i, double theta_o, double phi, const KajiyaKay<double>& model) {
   std::vector<double> in{theta_i, theta_o, phi};
   for (const double x : channels_of(model)) in.push_back(x);
@@ -32,9 +30,9 @@ TYPED_TEST(KajiyaKayKinds, IsSoundInEveryHardCase) {
       KajiyaKay<double> model;
       model.primary_exponent = model.secondary_exponent = model.transmission_exponent = exponent;
       model.primary_shift_deg = model.secondary_shift_deg = shift;
-      for (const double a : {-kPi / 2, -1.0, 0.0, 1e-7, kPi / 2 - 1e-7, kPi / 2})
-        for (const double b : {-kPi / 2, 0.0, 1.0, kPi / 2})
-          for (const double phi : {0.0, 1.0, kPi, 2 * kPi})
+      for (const double a : {-std::numbers::pi / 2, -1.0, 0.0, 1e-7, std::numbers::pi / 2 - 1e-7, std::numbers::pi / 2})
+        for (const double b : {-std::numbers::pi / 2, 0.0, 1.0, std::numbers::pi / 2})
+          for (const double phi : {0.0, 1.0, std::numbers::pi, 2 * std::numbers::pi})
             for (const double x : values<S>(a, b, phi, model))
               ASSERT_TRUE(std::isfinite(x) && x >= 0) << exponent << " " << shift << " " << a << " " << b << " " << phi;
     }
@@ -45,7 +43,8 @@ TYPED_TEST(KajiyaKayKinds, AgreesWithDouble) {
   Random random(1);
   for (int i = 0; i < 5000; ++i) {
     const auto model = random_model<KajiyaKay<double>>(random, [](const Parameter& row) { return row.typical; });
-    const double a = random.uniform(-1.5, 1.5), b = random.uniform(-1.5, 1.5), phi = random.uniform(-kPi, kPi);
+    const double a = random.uniform(-1.5, 1.5), b = random.uniform(-1.5, 1.5),
+                 phi = random.uniform(-std::numbers::pi, std::numbers::pi);
     const auto want = values<double>(a, b, phi, model), got = values<S>(a, b, phi, model);
     for (std::size_t k = 0; k < want.size(); ++k)
       ASSERT_LE(relative_difference(got[k], want[k], 1e-33), kIsFloat<S> ? 2e-5 : 1e-12) << i;
@@ -55,7 +54,7 @@ TYPED_TEST(KajiyaKayKinds, AgreesWithDouble) {
 // Each weight is the energy of its term, seen across the fibre.
 TEST(KajiyaKay, WeightsAreEnergies) {
   std::vector<double> ends;
-  for (int i = 0; i <= 12; ++i) ends.push_back(kPi * (i / 12.0 - 0.5));
+  for (int i = 0; i <= 12; ++i) ends.push_back(std::numbers::pi * (i / 12.0 - 0.5));
   const Nodes theta(ends), phi(ends);  // phi over half a turn, twice
   for (int term = 0; term < 4; ++term)
     for (const double exponent : {0.0, 1.0, 10.0, 200.0}) {
@@ -70,7 +69,7 @@ TEST(KajiyaKay, WeightsAreEnergies) {
       double sum = 0;
       for (std::size_t i = 0; i < theta.at.size(); ++i)
         for (std::size_t k = 0; k < phi.at.size(); ++k)
-          for (const double half : {0.0, kPi})
+          for (const double half : {0.0, std::numbers::pi})
             sum += theta.weight[i] * phi.weight[k] * std::cos(theta.at[i]) *
                    values<double>(theta.at[i], 0, phi.at[k] + half, model)[3];
       EXPECT_NEAR(sum, 1,
@@ -88,7 +87,8 @@ TEST(KajiyaKay, IsTheFormulaOfTheSlide) {
   model.secondary = model.transmission = Rgb<double>(0.0);
   model.primary_shift_deg = 0;
   const double n = model.primary_exponent, a = 0.3, b = -0.45;
-  const double k_s = 0.1 * std::sqrt(n + 1.5) / std::pow(2 * kPi, 1.5), k_d = 0.2 / (kPi * kPi);
+  const double k_s = 0.1 * std::sqrt(n + 1.5) / std::pow(2 * std::numbers::pi, 1.5),
+               k_d = 0.2 / (std::numbers::pi * std::numbers::pi);
   EXPECT_NEAR(values<double>(a, b, 1, model)[0], k_d + k_s * std::pow(std::cos(a + b), n) / std::cos(a), 1e-15);
   // Where the mirror direction is more than a quarter turn away there is no highlight.
   EXPECT_NEAR(values<double>(0.9, 0.8, 1, model)[0], k_d, 1e-16);
@@ -98,7 +98,8 @@ TEST(KajiyaKay, LightFromBehindComesThroughOnlyFromBehind) {
   KajiyaKay<double> model;
   model.diffuse = model.primary = model.secondary = Rgb<double>(0.0);
   EXPECT_EQ(values<double>(0, 0, 0, model)[0], 0);
-  EXPECT_GT(values<double>(0, 0, kPi, model)[0], 100 * values<double>(0, 0, kPi / 2, model)[0]);
+  EXPECT_GT(values<double>(0, 0, std::numbers::pi, model)[0],
+            100 * values<double>(0, 0, std::numbers::pi / 2, model)[0]);
 }
 
 TEST(KajiyaKayDerivatives, AreFiniteAndThoseOfADifference) {
@@ -115,7 +116,8 @@ TEST(KajiyaKayDerivatives, AreFiniteAndThoseOfADifference) {
   Random random(2);
   for (int i = 0; i < 300; ++i) {
     const auto model = random_model<KajiyaKay<double>>(random, [](const Parameter& row) { return row.typical; });
-    auto row = row_of(random.uniform(-0.7, 0.7), random.uniform(-0.7, 0.7), random.uniform(-kPi, kPi), model);
+    auto row = row_of(random.uniform(-0.7, 0.7), random.uniform(-0.7, 0.7),
+                      random.uniform(-std::numbers::pi, std::numbers::pi), model);
     const auto out = jets(row);
     for (std::size_t k = 0; k < 17; ++k) {
       const double x = row[3 + k], step = 1e-4;
@@ -130,8 +132,8 @@ TEST(KajiyaKayDerivatives, AreFiniteAndThoseOfADifference) {
       }
     }
   }
-  for (const double theta : {-kPi / 2, 0.0, kPi / 2})
-    for (const Jet& x : jets(row_of(theta, kPi / 2, kPi, {})))
+  for (const double theta : {-std::numbers::pi / 2, 0.0, std::numbers::pi / 2})
+    for (const Jet& x : jets(row_of(theta, std::numbers::pi / 2, std::numbers::pi, {})))
       for (int k = 0; k < 17; ++k) EXPECT_TRUE(std::isfinite(x.v[k]));
 }
 

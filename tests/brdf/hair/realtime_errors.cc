@@ -15,7 +15,6 @@
 namespace likeness::brdf {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kBetas[]{0.1, 0.2, 0.3, 0.5, 0.7, 1.0};
 
 // Energy under light from everywhere, over that of the reference.
@@ -49,7 +48,7 @@ Pair draw(Random& random, const RealtimeFibre& fibre) {
   const std::size_t p = random.index(4);
   const double u = random.uniform(), w = random.uniform();
   const auto i = sample_hair_mp(view.v[std::min<std::size_t>(p, 2)], view.o[p], u, w);
-  return {std::atan2(i.sine, i.cosine), theta_o, random.uniform(-kPi, kPi)};
+  return {std::atan2(i.sine, i.cosine), theta_o, random.uniform(-std::numbers::pi, std::numbers::pi)};
 }
 
 void print_values() {
@@ -152,8 +151,8 @@ void print_tables() {
     };
     return std::pair{read, exact};
   };
-  const auto even = [](double x) { return kPi * x; };
-  const auto of_r = [&](double x) { return kPi - unbent(lut.dense_r, x); };
+  const auto even = [](double x) { return std::numbers::pi * x; };
+  const auto of_r = [&](double x) { return std::numbers::pi - unbent(lut.dense_r, x); };
   const auto of_trt = [&](double x) { return unbent(lut.dense_trt, x); };
   const auto r = lobe(0, 0, of_r);
   print_axes("`hair_lut` R", lut.r, r.first, r.second);
@@ -173,13 +172,13 @@ void print_tables() {
         names[p], talk.distribution,
         [&](double x, double y, double z) {
           double d[3];
-          talk.read(kPi * x, y, least + (1 - least) * z, d);
+          talk.read(std::numbers::pi * x, y, least + (1 - least) * z, d);
           return d[p];
         },
         [&](double x, double y, double z) {
           HairOffsets offsets(1.55, y);
           offsets.choose(p, hair_width(least + (1 - least) * z));
-          return offsets.distribution(kPi * x);
+          return offsets.distribution(std::numbers::pi * x);
         });
   }
   const auto seconds_of = [](auto&& bake) {

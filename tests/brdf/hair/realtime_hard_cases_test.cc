@@ -20,7 +20,9 @@ void for_each_row(F&& f) {
 // Inputs of a form with the ends of every range, 0, right angles and a hair's breadth beside them over-weighted.
 template <class Form>
 std::vector<double> draw_edges(Random& random) {
-  constexpr double kPi = std::numbers::pi, kAngles[]{0, kPi / 2, -kPi / 2, kPi, -kPi, 1e-9, -1e-9, kPi / 2 - 1e-7};
+  constexpr double kAngles[]{
+      0,     std::numbers::pi / 2,       -std::numbers::pi / 2, std::numbers::pi, -std::numbers::pi, 1e-9,
+      -1e-9, std::numbers::pi / 2 - 1e-7};
   std::vector<double> in;
   for (const Parameter& p : Form::kInputs)
     for (int channel = 0; channel < p.channels; ++channel) {
@@ -68,7 +70,6 @@ TYPED_TEST(HairRealtime, EdgesGiveNoNaN) {
 
 TYPED_TEST(HairRealtime, NoJumpAtTheAzimuthsZeroAndPi) {
   using S = TypeParam;
-  constexpr double kPi = std::numbers::pi;
   for (const RealtimeFibre& a : {RealtimeFibre{}, RealtimeFibre{.beta_m = 0.1, .beta_n = 0.1, .sigma_a = 1}})
     for (const double theta_o : {0.0, 1.2}) {
       const auto far = [&]<class E>(std::type_identity<E>, double phi) {
@@ -80,12 +81,12 @@ TYPED_TEST(HairRealtime, NoJumpAtTheAzimuthsZeroAndPi) {
       };
       const auto check = [&](auto&& f) {
         const double step = 1e-5;
-        for (const double centre : {0.0, kPi, -kPi, 2 * kPi}) {
+        for (const double centre : {0.0, std::numbers::pi, -std::numbers::pi, 2 * std::numbers::pi}) {
           const double here = f(centre), before = f(centre - step), after = f(centre + step);
           EXPECT_NEAR(before, after, (kIsFloat<S> ? 3e-5 : 1e-9) * here);  // even about both
           EXPECT_NEAR(before, here, 1e-3 * here);                          // slopes of up to 1 / 0.024
         }
-        EXPECT_NEAR(f(kPi), f(-kPi), (kIsFloat<S> ? 1e-6 : 1e-12) * f(kPi));
+        EXPECT_NEAR(f(std::numbers::pi), f(-std::numbers::pi), (kIsFloat<S> ? 1e-6 : 1e-12) * f(std::numbers::pi));
       };
       check([&](double phi) { return far(std::type_identity<HairLutRow>{}, phi); });
       check([&](double phi) { return far(std::type_identity<HairLutGaussRow>{}, phi); });

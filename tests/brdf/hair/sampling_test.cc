@@ -7,8 +7,6 @@
 namespace likeness::brdf {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 template <Scalar S>
 HairFibre<S> fibre_in(const HairFibre<double>& fibre) {
   return model_in<S>(fibre);
@@ -43,7 +41,7 @@ TYPED_TEST(HairSampling, TheWeightIsScatteringOverPdfSampleBySample) {
   Random random(1);
   for (int i = 0; i < 20000; ++i) {
     const auto fibre = random_model<HairFibre<double>>(random, [](const Parameter& row) { return row.typical; });
-    const Vec3<double> view = direction(random.uniform(-1.5, 1.5), random.uniform(-kPi, kPi));
+    const Vec3<double> view = direction(random.uniform(-1.5, 1.5), random.uniform(-std::numbers::pi, std::numbers::pi));
     const double h = random.uniform(-1, 1);
     const HairSample<S> sample = this->draw(fibre, view, h, random);
     const auto model = fibre_in<S>(fibre);
@@ -82,14 +80,15 @@ TYPED_TEST(HairSampling, IsSoundInEveryHardCase) {
     for (const double beta_n : {0.0, 0.3, 1.0})
       for (const double sigma_a : {0.0, 1e6})
         for (const double eta : {1.0, 1.55})
-          for (const double theta : {-kPi / 2, 0.0, 1.0, kPi / 2 - 1e-7, kPi / 2})
+          for (const double theta :
+               {-std::numbers::pi / 2, 0.0, 1.0, std::numbers::pi / 2 - 1e-7, std::numbers::pi / 2})
             for (const double h : {-1.0, 0.0, 0.5, 1.0})
               for (const double x : {0.0, 0.5, 1 - 0x1p-24}) {
                 auto fibre = fibre_of(beta_m, beta_n, Rgb<double>(sigma_a));
                 fibre.eta = eta;
                 const S n = constant<S>(x);
                 const Vec3<double> view =
-                    theta > 1.57 ? Vec3<double>{1, theta < kPi / 2 ? 1e-7 : 0, 0} : direction(theta, 0.7);
+                    theta > 1.57 ? Vec3<double>{1, theta < std::numbers::pi / 2 ? 1e-7 : 0, 0} : direction(theta, 0.7);
                 const auto sample = fibre_in<S>(fibre).sample(vector_in<S>(view), constant<S>(h), n, n, n, n);
                 for (const S& value :
                      {sample.pdf, sample.weight.r, sample.to_light.x, sample.to_light.y, sample.to_light.z})
@@ -116,10 +115,10 @@ const double kLeastP = sidak(0.01, std::size(kCases) * 2 * 3);  // cases, kinds,
 std::vector<double> expected_of(const HairFibre<double>& fibre, const Case& c) {
   const auto view = fibre.view(direction(c.theta_o, 0), c.h);
   std::vector<double> ends;
-  for (std::size_t i = 0; i <= kInclinations; ++i) ends.push_back(kPi * (double(i) / kInclinations - 0.5));
+  for (std::size_t i = 0; i <= kInclinations; ++i) ends.push_back(std::numbers::pi * (double(i) / kInclinations - 0.5));
   const Nodes theta(ends);
   ends.clear();
-  for (std::size_t i = 0; i <= kAzimuths; ++i) ends.push_back(2 * kPi * (double(i) / kAzimuths - 0.5));
+  for (std::size_t i = 0; i <= kAzimuths; ++i) ends.push_back(2 * std::numbers::pi * (double(i) / kAzimuths - 0.5));
   const Nodes phi(ends);
   std::vector<double> bins(kInclinations * kAzimuths);
   for (std::size_t i = 0; i < theta.at.size(); ++i)
@@ -145,8 +144,8 @@ void compare(int samples, Draw&& draw) {
       const auto bin = [](double at, std::size_t bins) {
         return std::min(std::size_t(std::max(at, 0.0) * double(bins)), bins - 1);
       };
-      counts[bin(std::atan2(x, std::hypot(y, z)) / kPi + 0.5, kInclinations) * kAzimuths +
-             bin(std::atan2(z, y) / (2 * kPi) + 0.5, kAzimuths)]++;
+      counts[bin(std::atan2(x, std::hypot(y, z)) / std::numbers::pi + 0.5, kInclinations) * kAzimuths +
+             bin(std::atan2(z, y) / (2 * std::numbers::pi) + 0.5, kAzimuths)]++;
     }
     const auto marginal = [](const std::vector<double>& cells, std::size_t bins, auto&& of) {
       std::vector<double> sums(bins);

@@ -25,12 +25,11 @@ class Gaussian : public ::testing::Test {
 };
 TYPED_TEST_SUITE(Gaussian, Kinds, KindNames);
 
-constexpr double kPi = std::numbers::pi;
 const std::vector<double> kSharpnesses{0, 1e-12, 1e-6, 4.9e-6, 5.1e-6, 1e-3, 0.5, 1, 2.3, 2.31, 10, 100, 1e4, 1e6};
 
 TYPED_TEST(Gaussian, HasItsValue) {
   for (const double sharpness : kSharpnesses)
-    for (const double angle : {0.0, 1e-4, 1e-3, 0.1, 1.0, kPi / 2, kPi}) {
+    for (const double angle : {0.0, 1e-4, 1e-3, 0.1, 1.0, std::numbers::pi / 2, std::numbers::pi}) {
       const double lambda = double(typename Arithmetic<TypeParam>::Number(sharpness));
       const double x = lambda * 2 * squared(std::sin(angle / 2)), want = 3 * std::exp(-x);
       const auto out = evaluate_row<PlainSphericalGaussian, TypeParam, ByAngle>({angle, lambda, 3});
@@ -56,10 +55,11 @@ TYPED_TEST(Gaussian, KeepsItsDigitsNearTheAxis) {  // 1 - dot(axis, direction) w
 TYPED_TEST(Gaussian, HasItsIntegral) {
   for (const double sharpness : kSharpnesses) {
     const long double lambda = typename Arithmetic<TypeParam>::Number(sharpness);
-    const long double want = lambda > 0 ? -2 * kPi * std::expm1(-2 * lambda) / lambda : 4 * kPi;
+    const long double want =
+        lambda > 0 ? -2 * std::numbers::pi * std::expm1(-2 * lambda) / lambda : 4 * std::numbers::pi;
     EXPECT_NEAR(this->integral(sharpness) / double(want), 1, 4 * this->kEpsilon) << sharpness;
   }
-  const double by_quadrature = 2 * kPi * over_interval(0, 2, [](double v) { return std::exp(-3 * v); });
+  const double by_quadrature = 2 * std::numbers::pi * over_interval(0, 2, [](double v) { return std::exp(-3 * v); });
   EXPECT_NEAR(this->integral(3) / by_quadrature, 1, 8 * this->kEpsilon);
 }
 
@@ -121,7 +121,7 @@ TYPED_TEST(Gaussian, TimesAnotherKeepsTinyAndHugeSharpnesses) {  // their square
 TYPED_TEST(Gaussian, HasItsInnerProduct) {
   for (const double la : {0.0, 0.3, 3.0})
     for (const double lb : {0.0, 1.0, 5.0})
-      for (const double angle : {0.0, 0.7, 2.0, kPi}) {
+      for (const double angle : {0.0, 0.7, 2.0, std::numbers::pi}) {
         const Vec3<double> b{std::sin(angle), 0, std::cos(angle)};
         const SphericalGaussian<double> there{{0, 0, 1}, la, 2}, other{b, lb, 0.5};
         const double want = over_sphere([&](const Vec3<double>& d) { return there.eval(d) * other.eval(d); });
@@ -163,7 +163,7 @@ TYPED_TEST(Gaussian, WithAWindowHasItsIntegral) {
   for (const double sharpness : kSharpnesses) {
     const double lambda = double(typename Arithmetic<TypeParam>::Number(sharpness));
     const double end = lambda > 0 ? std::min(2.0, std::log(100) / lambda) : 2;
-    const double want = 2 * kPi * over_interval(0, end, [&](double v) {
+    const double want = 2 * std::numbers::pi * over_interval(0, end, [&](double v) {
                           const double t = std::max(0.0, 1 - lambda * v / std::log(100));
                           return std::exp(-lambda * v) * t * t * (3 - 2 * t);
                         });
@@ -191,8 +191,8 @@ TYPED_TEST(Gaussian, IsFiniteAndNotNegativeEverywhere) {
          {this->integral(sharpness), this->windowed_integral(sharpness), this->windowed(sharpness, versine),
           first(this->lobe({0, 0, 1}, sharpness).eval(constant<TypeParam>(versine)))})
       ASSERT_TRUE(std::isfinite(x) && x >= 0) << sharpness << " " << versine;
-    const auto row =
-        evaluate_row<SphericalGaussianProduct, TypeParam>({random.uniform(0, kPi), sharpness, 1, 1e6 * versine, 1});
+    const auto row = evaluate_row<SphericalGaussianProduct, TypeParam>(
+        {random.uniform(0, std::numbers::pi), sharpness, 1, 1e6 * versine, 1});
     for (const double x : row) ASSERT_TRUE(std::isfinite(x) && x >= 0) << sharpness << " " << versine;
   }
 }

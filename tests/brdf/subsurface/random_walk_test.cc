@@ -9,7 +9,7 @@
 namespace likeness::brdf {
 namespace {
 
-constexpr double kPi = std::numbers::pi, kSigmas = 4.2;
+constexpr double kSigmas = 4.2;
 constexpr Incidence kIncidences[]{Incidence::kPencil, Incidence::kDiffuse};
 constexpr Estimator kEstimators[]{Estimator::kWeighted, Estimator::kAnalog};
 
@@ -127,7 +127,7 @@ TEST(WalkParts, TurnedDirectionsKeepTheirAngle) {
   for (const WalkDirection& a : from) {
     WalkDirection sum{0, 0, 0};
     for (int i = 0; i < 8; ++i) {
-      const double turn = i * kPi / 4;
+      const double turn = i * std::numbers::pi / 4;
       const WalkDirection b = a.turned(0.3, {0.5 * std::cos(turn), 0.5 * std::sin(turn), 0.25});
       EXPECT_NEAR(a.x * b.x + a.y * b.y + a.z * b.z, 0.3, 1e-8);  // a is a unit vector to 1e-9
       EXPECT_NEAR(b.x * b.x + b.y * b.y + b.z * b.z, 1, 1e-14);
@@ -237,9 +237,9 @@ TEST(RandomWalk, ProfileOfSingleScatteringIsTheExactOne) {
         const double d = std::hypot(r.x, z.x);
         single += z.weight * z.x * std::exp(-z.x - d) / (d * d * d);
       }
-      sum += r.weight * 2 * kPi * r.x * alpha / (4 * kPi) * single;
+      sum += r.weight * 2 * std::numbers::pi * r.x * alpha / (4 * std::numbers::pi) * single;
     }
-    const double want = sum / (kPi * (edges[i + 1] * edges[i + 1] - edges[i] * edges[i]));
+    const double want = sum / (std::numbers::pi * (edges[i + 1] * edges[i + 1] - edges[i] * edges[i]));
     const double error = kSigmas * walked.error[i];
     EXPECT_GE(walked.reflectance[i], want - error) << edges[i];
     EXPECT_LE(walked.reflectance[i], 1.012 * want + error) << edges[i];
@@ -279,7 +279,7 @@ TEST(RandomWalk, BurleysShapesFitAtAlbedosUpToSevenTenths) {
     const auto walked = random_walk_profile(medium, incidence, edges, 20000, 20);
     double inside = 0, most = 0;
     for (std::size_t i = 0; i + 1 < edges.size(); ++i) {
-      const double area = kPi * (edges[i + 1] * edges[i + 1] - edges[i] * edges[i]);
+      const double area = std::numbers::pi * (edges[i + 1] * edges[i + 1] - edges[i] * edges[i]);
       inside += walked.reflectance[i] * area / walked.total.mean();
       most = std::max(most, std::abs(inside - burley_cdf(s * edges[i + 1])));
     }

@@ -10,7 +10,6 @@ namespace likeness::brdf {
 namespace {
 
 using Long = long double;
-constexpr Long kPi = std::numbers::pi_v<Long>;
 
 struct Angles {
   Long theta_i, theta_o, phi;
@@ -18,12 +17,14 @@ struct Angles {
 Long by_angles(const OrenNayar<double>& m, const Angles& a) {
   const Long ci = std::cos(a.theta_i), co = std::cos(a.theta_o);
   const Long s = std::sin(a.theta_i) * std::sin(a.theta_o) * std::cos(a.phi), t = s > 0 ? std::max(ci, co) : 1;
-  return m.base_color.g * (1 + m.sigma * s / t) / (kPi + (kPi / 2 - 2 / Long(3)) * m.sigma);
+  return m.base_color.g * (1 + m.sigma * s / t) /
+         (std::numbers::pi_v<Long> + (std::numbers::pi_v<Long> / 2 - 2 / Long(3)) * m.sigma);
 }
 Long by_angles(const OrenNayar1994<double>& m, const Angles& a) {
   const Long v = Long(m.sigma) * m.sigma, big = 1 - v / (2 * (v + 0.33L)), small = 0.45L * v / (v + 0.09L);
   const Long alpha = std::max(a.theta_i, a.theta_o), beta = std::min(a.theta_i, a.theta_o);
-  return m.base_color.g * (big + small * std::max(Long(0), std::cos(a.phi)) * std::sin(alpha) * std::tan(beta)) / kPi;
+  return m.base_color.g * (big + small * std::max(Long(0), std::cos(a.phi)) * std::sin(alpha) * std::tan(beta)) /
+         std::numbers::pi_v<Long>;
 }
 
 template <class S>
@@ -57,11 +58,12 @@ TYPED_TEST(OrenNayarIn, EqualsTheFormulaInAngles) {
 
 // Where both directions graze, s / t is large on the light's side and 1 + s vanishes on the other.
 TYPED_TEST(OrenNayarIn, KeepsItsDigitsWhereBothDirectionsGraze) {
-  const Long right = kPi / 2;
+  const Long right = std::numbers::pi_v<Long> / 2;
   for (const double i : {1e-2, 1e-3, 1e-4, 1e-7})
     for (const double o : {1e-2, 1e-3, 1e-4, 1e-7})
-      for (const double phi : {0.0, 1e-4, 0.5, 1.57, 1.5707, double(right) - 1e-6, double(right), double(right) + 1e-3,
-                               2.0, 3.1, 3.14, double(kPi) - 1e-4, double(kPi)})
+      for (const double phi :
+           {0.0, 1e-4, 0.5, 1.57, 1.5707, double(right) - 1e-6, double(right), double(right) + 1e-3, 2.0, 3.1, 3.14,
+            double(std::numbers::pi_v<Long>) - 1e-4, double(std::numbers::pi_v<Long>)})
         for (const double sigma : {0.0, 0.5, 1.0}) {
           const Angles a{Long(double(right) - i), Long(double(right) - o), phi};
           // In double half of the digits of 1 - sigma s go where f falls to 1e-14 of its size.
@@ -78,11 +80,11 @@ TYPED_TEST(OrenNayarIn, AlongTheNormalTheAzimuthPlaysNoPart) {
   for (const double z : {1.0, 0.9, 0.2, 1e-7})
     for (const double phi : {0.0, 1.0, 2.5}) {
       const OrenNayar<double> improved{Rgb<double>(1), 0.7};
-      const double want = double(1 / (kPi + (kPi / 2 - 2 / Long(3)) * 0.7L));
+      const double want = double(1 / (std::numbers::pi_v<Long> + (std::numbers::pi_v<Long> / 2 - 2 / Long(3)) * 0.7L));
       EXPECT_LE(relative_difference(eval_in<S>(improved, at_height(z, phi), {0, 0, 1})[0], want), 2e-7);  // 2 roundings
       EXPECT_LE(relative_difference(eval_in<S>(improved, {0, 0, 1}, at_height(z, phi))[0], want), 2e-7);
       const OrenNayar1994<double> old{Rgb<double>(1), 0.7};
-      const double a = double((1 - 0.49L / (2 * 0.82L)) / kPi);
+      const double a = double((1 - 0.49L / (2 * 0.82L)) / std::numbers::pi_v<Long>);
       EXPECT_LE(relative_difference(eval_in<S>(old, at_height(z, phi), {0, 0, 1})[0], a), 2e-7);
       EXPECT_LE(relative_difference(eval_in<S>(old, {0, 0, 1}, at_height(z, phi))[0], a), 2e-7);
     }

@@ -11,7 +11,6 @@ namespace likeness::brdf {
 namespace {
 
 using Long = long double;
-constexpr Long kPi = std::numbers::pi_v<Long>;
 
 Long factor(Long alpha, Long cos_i, Long cos_vl) {
   const Long k = std::clamp(-cos_vl, Long(0), Long(1));
@@ -41,7 +40,7 @@ TYPED_TEST(ProximaIn, KeepsItsDigitsWhereLightAndViewAreOppositeOrAtRightAngles)
       for (const double cos_vl :
            {-1.0, -1 + 1e-15, -1 + 2e-8, -0.9999, -0.5, -1e-4, -1e-9, -1e-16, -1e-30, 0.0, 1e-9, 1.0}) {
         const auto got = evaluate_row<ProximaRow, S, typename TestFixture::Cosines>({cos_i, cos_vl, 1, 1, 1, alpha});
-        const Long a = first(constant<S>(alpha)), f = factor(a, cos_i, cos_vl) / kPi;
+        const Long a = first(constant<S>(alpha)), f = factor(a, cos_i, cos_vl) / std::numbers::pi_v<Long>;
         EXPECT_LE(relative_difference(got[0], double(f)), this->kRelative) << alpha << " " << cos_i << " " << cos_vl;
         EXPECT_LE(relative_difference(got[3], double(f * cos_i)), this->kRelative)
             << alpha << " " << cos_i << " " << cos_vl;

@@ -120,7 +120,8 @@ TEST_F(RenderCommand, StatesTheLevelOfEverySettingOfAFrame) {
     EXPECT_TRUE(settings.contains(name)) << name;
   EXPECT_EQ(Json::parse(layers().metadata).at("settings"), settings);
   EXPECT_EQ(settings.at("pixel_samples"), "1");
-  shop.write("better.json", R"({"format": "likeness quality", "version": 1, "settings": {"pixel_samples": 4}})");
+  files::write_whole(shop / "better.json",
+                     R"({"format": "likeness quality", "version": 1, "settings": {"pixel_samples": 4}})");
   const Ran better = shop.run({"render", "ball.json", "--integrator", "runtime", "--quality", "better.json", "--json"});
   ASSERT_EQ(better.exit_code, 0) << better.error;
   EXPECT_EQ(Json::parse(better.out).at("settings").at("pixel_samples"), "4");

@@ -19,7 +19,6 @@ namespace {
 
 using brdf::chi_square;
 using brdf::sidak;
-constexpr double kPi = std::numbers::pi;
 constexpr int kDraws = 60000;
 constexpr std::size_t kCoarse = 16, kFine = 64;
 
@@ -122,13 +121,13 @@ Shape shape_of(const scene::DiskLight& light, const glm::vec3& point) {
           },
           [=](const glm::dvec3& on) {
             const double a = glm::dot(on - c, x), b = glm::dot(on - c, y);
-            return glm::dvec2((a * a + b * b) / (radius * radius), std::atan2(b, a) / (2 * kPi) + 0.5);
+            return glm::dvec2((a * a + b * b) / (radius * radius), std::atan2(b, a) / (2 * std::numbers::pi) + 0.5);
           },
           [=](const glm::dvec2& q) -> Shape::At {
-            const double r = radius * std::sqrt(q.x), phi = (q.y - 0.5) * 2 * kPi;
+            const double r = radius * std::sqrt(q.x), phi = (q.y - 0.5) * 2 * std::numbers::pi;
             const glm::dvec3 way = c + r * (std::cos(phi) * x + std::sin(phi) * y) - p;
             const double t = glm::length(way);
-            return {way / t, t, kPi * radius * radius * std::abs(glm::dot(way / t, n)) / (t * t)};
+            return {way / t, t, std::numbers::pi * radius * radius * std::abs(glm::dot(way / t, n)) / (t * t)};
           }};
 }
 
@@ -144,12 +143,12 @@ Shape shape_of(const scene::SphereLight& light, const glm::vec3& point) {
             const glm::dvec3 w = glm::normalize(on - p);
             const double a = glm::dot(w, x), b = glm::dot(w, y), s2 = a * a + b * b;
             return glm::dvec2(s2 / (1 + std::sqrt(std::max(1 - s2, 0.0))) / versine,
-                              std::atan2(b, a) / (2 * kPi) + 0.5);
+                              std::atan2(b, a) / (2 * std::numbers::pi) + 0.5);
           },
           [=](const glm::dvec2& q) -> Shape::At {
-            const double v = q.x * versine, s = std::sqrt(v * (2 - v)), phi = (q.y - 0.5) * 2 * kPi;
+            const double v = q.x * versine, s = std::sqrt(v * (2 - v)), phi = (q.y - 0.5) * 2 * std::numbers::pi;
             const glm::dvec3 w = s * std::cos(phi) * x + s * std::sin(phi) * y + (1 - v) * z;
-            return {w, d * (1 - v) - std::sqrt(std::max(r * r - d * d * s * s, 0.0)), 2 * kPi * versine};
+            return {w, d * (1 - v) - std::sqrt(std::max(r * r - d * d * s * s, 0.0)), 2 * std::numbers::pi * versine};
           }};
 }
 

@@ -15,7 +15,6 @@ namespace {
 
 using brdf::chi_square;
 using brdf::sidak;
-constexpr double kPi = std::numbers::pi;
 
 // A picture whose texels are what `value` says of a column and a row.
 template <class F>
@@ -41,7 +40,7 @@ TEST(Environment, MiddleColumnIsAheadItsRightNeighborToTheRightAndTheTopAbove) {
   const Environment e = environment_of(scene);
   EXPECT_NEAR(e.radiance({0, 0, -1}).r, 4, 1e-5);
   EXPECT_NEAR(e.radiance({0, 0, -1}).g, 2, 1e-5);
-  const float a = static_cast<float>(2 * kPi / 9);
+  const float a = static_cast<float>(2 * std::numbers::pi / 9);
   EXPECT_NEAR(e.radiance({std::sin(a), 0, -std::cos(a)}).r, 5, 1e-5);
   EXPECT_NEAR(e.radiance({-std::sin(a), 0, -std::cos(a)}).r, 3, 1e-5);
   EXPECT_NEAR(e.radiance({0, 1, 0}).g, 0, 1e-5);
@@ -53,7 +52,7 @@ TEST(Environment, MiddleColumnIsAheadItsRightNeighborToTheRightAndTheTopAbove) {
 
 TEST(Environment, TurnsCounterClockwiseSeenFromAbove) {
   auto scene = scene_of(9, 5, [](int x, int y) { return glm::vec3(x, y, 1); });
-  scene.environment->turn = static_cast<float>(kPi / 2);
+  scene.environment->turn = static_cast<float>(std::numbers::pi / 2);
   const Environment e = environment_of(scene);
   // About +y, right-handed: what was ahead (-z) is at the left (-x), what was at the right (+x) is ahead.
   EXPECT_NEAR(e.radiance({-1, 0, 0}).r, 4, 1e-5);
@@ -72,13 +71,14 @@ TEST(Environment, PlacesAndDirectionsAreEachOthersInverse) {
       // A part of them near the poles.
       const double theta =
           i % 3 == 0 ? 1e-5 * std::pow(1e5, static_cast<double>(u.x)) : std::acos(1 - 2 * static_cast<double>(u.x));
-      const double phi = 2 * kPi * static_cast<double>(u.y), up = i % 2 ? 1 : -1;
+      const double phi = 2 * std::numbers::pi * static_cast<double>(u.y), up = i % 2 ? 1 : -1;
       const glm::vec3 d{std::sin(theta) * std::cos(phi), up * std::cos(theta), std::sin(theta) * std::sin(phi)};
       const glm::vec2 place = e.place_of(d);
       ASSERT_TRUE(place.x >= 0 && place.x <= 1 && place.y >= 0 && place.y <= 1);
       const double distance = static_cast<double>(glm::distance(e.direction_at(place), d));
       worst = std::max(worst, distance);
-      if (std::min(theta, kPi - theta) < 0.1) worst_angle = std::max(worst_angle, distance / std::sin(theta));
+      if (std::min(theta, std::numbers::pi - theta) < 0.1)
+        worst_angle = std::max(worst_angle, distance / std::sin(theta));
     }
     EXPECT_LT(worst, 4e-6 * (1 + std::abs(static_cast<double>(turn)))) << turn;  // floats of angles up to the turn
     // Near the poles the error is small beside the angle to them: at 1e-5 rad that of pi - theta, 2.4e-7, is 2.4 %.
@@ -93,11 +93,11 @@ double over_sphere(int columns, F&& f) {
   const int rows = columns / 2;
   for (int y = 0; y < rows; ++y)
     for (int x = 0; x < columns; ++x) {
-      const double theta = (y + 0.5) / rows * kPi, phi = (x + 0.5) / columns * 2 * kPi;
+      const double theta = (y + 0.5) / rows * std::numbers::pi, phi = (x + 0.5) / columns * 2 * std::numbers::pi;
       sum += f(glm::vec3(std::sin(theta) * std::cos(phi), std::cos(theta), std::sin(theta) * std::sin(phi))) *
              std::sin(theta);
     }
-  return sum * 2 * kPi * kPi / (static_cast<double>(rows) * columns);
+  return sum * 2 * std::numbers::pi * std::numbers::pi / (static_cast<double>(rows) * columns);
 }
 
 // Samples against the density, densities against each other, and means of radiance over density against a quadrature.
@@ -111,8 +111,9 @@ void expect_sound(const scene::Scene& scene, const char* what, double least, dou
   for (std::size_t y = 0; y < kFine; ++y)
     for (std::size_t x = 0; x < 2 * kFine; ++x) {
       const glm::vec2 place{(static_cast<float>(x) + 0.5f) / (2 * kFine), (static_cast<float>(y) + 0.5f) / kFine};
-      const double sine = std::sin(static_cast<double>(place.y) * kPi);
-      const double p = static_cast<double>(e.pdf(e.direction_at(place))) * 2 * kPi * kPi * sine;
+      const double sine = std::sin(static_cast<double>(place.y) * std::numbers::pi);
+      const double p =
+          static_cast<double>(e.pdf(e.direction_at(place))) * 2 * std::numbers::pi * std::numbers::pi * sine;
       expected[y * kBins / kFine * kBins + x * kBins / (2 * kFine)] += p, of_y[y] += p;
     }
   constexpr int kDraws = 100000;
@@ -148,7 +149,8 @@ void expect_sound(const scene::Scene& scene, const char* what, double least, dou
       over_sphere(2048, [&](const glm::vec3& d) { return static_cast<double>(e.radiance(d).g * std::max(d.y, 0.0f)); });
   EXPECT_NEAR(up, exact_up, tolerance * exact + 1e-12);
   const double mean = static_cast<double>(e.mean_radiance().g);
-  EXPECT_NEAR(mean, exact / (4 * kPi), 0.1 * mean);  // of texels, not of what lies between them: half of one at a pole
+  EXPECT_NEAR(mean, exact / (4 * std::numbers::pi),
+              0.1 * mean);  // of texels, not of what lies between them: half of one at a pole
   // Nothing bright is missed.
   for (std::uint32_t i = 0; i < 20000; ++i) {
     sampling::Samples samples(i, 0, 5);
@@ -193,7 +195,8 @@ TEST(Environment, OfMoreColumnsThanItsGridMissesNothing) {
     double exact = 0;  // of the bilinear picture: a tent of one texel about the texel
     for (int i = 0; i < 8000; ++i) {
       const double y = (i + 0.5) / 8000 * 8, weight = std::max(1 - std::abs(y - 4.5), 0.0);
-      exact += 100 * weight * std::sin(y / 8 * kPi) * 2 * kPi * kPi / 8000 / width;
+      exact +=
+          100 * weight * std::sin(y / 8 * std::numbers::pi) * 2 * std::numbers::pi * std::numbers::pi / 8000 / width;
     }
     EXPECT_NEAR(sum, exact, 0.02 * exact) << width;
   }

@@ -13,7 +13,6 @@
 namespace likeness::light {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr std::uint32_t kDraws = 65536;
 
 scene::Scene scene_of(const std::vector<scene::LightShape>& shapes) {
@@ -80,7 +79,7 @@ TEST(Lights, ADiskGivesTheIrradianceOfItsClosedForm) {
   // A small surface parallel to a disk, aside of its axis (Howell, catalog of configuration factors, B-14).
   const auto exact_at = [](double a, double h, double r) {
     const double z = a * a + h * h + r * r;
-    return kPi * 0.5 * (1 - (a * a + h * h - r * r) / std::sqrt(z * z - 4 * a * a * r * r));
+    return std::numbers::pi * 0.5 * (1 - (a * a + h * h - r * r) / std::sqrt(z * z - 4 * a * a * r * r));
   };
   struct Case {
     float a, h;
@@ -98,8 +97,8 @@ TEST(Lights, ASphereGivesTheIrradianceOfItsClosedForm) {
   for (const float d : {0.701f, 0.8f, 2.0f, 50.0f, 10000.0f})
     for (const glm::vec3& n : {glm::vec3(0, 1, 0), tilted}) {
       const double sine = 0.7 / static_cast<double>(d), cosine = static_cast<double>(n.y);
-      if (std::acos(cosine) + std::asin(sine) > kPi / 2) continue;  // partly below the horizon
-      const double exact = kPi * sine * sine * cosine;
+      if (std::acos(cosine) + std::asin(sine) > std::numbers::pi / 2) continue;  // partly below the horizon
+      const double exact = std::numbers::pi * sine * sine * cosine;
       EXPECT_NEAR(irradiance_of(light, {0, 2 - d, 0}, n), exact, 1e-3 * exact) << d;
     }
   // Half below the horizon: a normal square to the way. The form factor of a half-hidden sphere (Howell B-43 with the

@@ -9,8 +9,6 @@
 namespace likeness::reference {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 // A white Lambert floor (albedo 1/2), looked at from straight above, aside of the light; the pixel is a point.
 scene::Scene floor_with(const scene::LightShape& shape) {
   scene::Scene scene;
@@ -25,7 +23,7 @@ scene::Scene floor_with(const scene::LightShape& shape) {
 void expect_irradiance(const char* what, const scene::Scene& scene, double exact) {
   const Estimate e = estimate(scene, {.samples = 256, .max_bounces = 1});
   // 4.5 standard errors of a dozen seeds, and the floats of a density.
-  EXPECT_NEAR(e.mean, 0.5 / kPi * exact, 4.5 * e.error + 3e-4 * exact) << what;
+  EXPECT_NEAR(e.mean, 0.5 / std::numbers::pi * exact, 4.5 * e.error + 3e-4 * exact) << what;
   EXPECT_LT(e.error, 0.02 * exact + 1e-12) << what;
 }
 
@@ -35,17 +33,20 @@ TEST(DirectLight, IsThatOfTheFormFactor) {
   const double square = 4 * (x / root) * std::atan(x / root);  // pi F = E of radiance 1: 2 (..) twice, for both sides
   expect_irradiance("square", floor_with(scene::RectangleLight{{0, 2, 0}, {0.5f, 0, 0}, {0, 0, 0.5f}, {1, 1, 1}}),
                     square);
-  expect_irradiance("disk", floor_with(scene::DiskLight{{0, 2, 0}, {0, -1, 0}, 0.5f, {1, 1, 1}}), kPi * 0.25 / 4.25);
-  expect_irradiance("sphere", floor_with(scene::SphereLight{{0, 2, 0}, 0.5f, {1, 1, 1}}), kPi * 0.25 / 4);
-  expect_irradiance("sphere aside", floor_with(scene::SphereLight{{3, 4, 0}, 0.5f, {1, 1, 1}}), kPi * 0.25 / 25 * 0.8);
-  expect_irradiance("large sphere near", floor_with(scene::SphereLight{{0, 2, 0}, 1.9f, {1, 1, 1}}), kPi * 3.61 / 4);
+  expect_irradiance("disk", floor_with(scene::DiskLight{{0, 2, 0}, {0, -1, 0}, 0.5f, {1, 1, 1}}),
+                    std::numbers::pi * 0.25 / 4.25);
+  expect_irradiance("sphere", floor_with(scene::SphereLight{{0, 2, 0}, 0.5f, {1, 1, 1}}), std::numbers::pi * 0.25 / 4);
+  expect_irradiance("sphere aside", floor_with(scene::SphereLight{{3, 4, 0}, 0.5f, {1, 1, 1}}),
+                    std::numbers::pi * 0.25 / 25 * 0.8);
+  expect_irradiance("large sphere near", floor_with(scene::SphereLight{{0, 2, 0}, 1.9f, {1, 1, 1}}),
+                    std::numbers::pi * 3.61 / 4);
   expect_irradiance("point", floor_with(scene::PointLight{{0, 2, 0}, {1, 1, 1}}), 0.25);
   expect_irradiance("direction", floor_with(scene::DirectionalLight{{0.6f, -0.8f, 0}, {1, 1, 1}}), 0.8);
   expect_irradiance("from behind", floor_with(scene::DiskLight{{0, 2, 0}, {0, 1, 0}, 0.5f, {1, 1, 1}}), 0);
   auto far = floor_with(scene::DiskLight{{0, 10000, 0}, {0, -1, 0}, 50, {1, 1, 1}});
-  expect_irradiance("10 km away", far, kPi * 2500 / (1e8 + 2500));
+  expect_irradiance("10 km away", far, std::numbers::pi * 2500 / (1e8 + 2500));
   far.lights[0].is_visible = false;
-  expect_irradiance("that paths do not meet", far, kPi * 2500 / (1e8 + 2500));
+  expect_irradiance("that paths do not meet", far, std::numbers::pi * 2500 / (1e8 + 2500));
 }
 
 TEST(DirectLight, OfAnEmissiveSquareIsThatOfTheFormFactorOnTheSideItShinesTo) {
@@ -116,7 +117,7 @@ TEST(MaxBounces, CountsThoseOfTheLight) {
   const double one = rendered(scene, {.samples = 256, .max_bounces = 1}).mean.g;
   const double two = rendered(scene, {.samples = 256, .max_bounces = 2}).mean.g;
   EXPECT_EQ(none, 0);
-  EXPECT_NEAR(one, 0.5 / kPi / 4, 1e-5);
+  EXPECT_NEAR(one, 0.5 / std::numbers::pi / 4, 1e-5);
   EXPECT_GT(two, 1.05 * one);
 }
 

@@ -12,8 +12,6 @@
 namespace likeness::scene::test {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 void expect_near(const glm::dvec3& got, const glm::dvec3& want) {
   constexpr double kFloat = 1e-6;  // of values near 1, some operations on
   EXPECT_LE(glm::length(got - want), kFloat * std::max(1.0, glm::length(want)))
@@ -145,9 +143,9 @@ TEST(SceneEntries, APointLightsPowerIsSpreadOverTheSphere) {
   expect_near(shape<PointLight>("\"type\": \"point\", \"strength\": 3, \"color\": [1, 0.5, 0]").intensity,
               {3, 1.5f, 0});
   expect_near(shape<PointLight>("\"type\": \"point\", \"strength\": 100, \"unit\": \"W\"").intensity,
-              glm::dvec3(100 / (4 * kPi)));
+              glm::dvec3(100 / (4 * std::numbers::pi)));
   expect_near(shape<PointLight>("\"type\": \"point\", \"strength\": 683, \"unit\": \"lm\"").intensity,
-              glm::dvec3(1 / (4 * kPi)));
+              glm::dvec3(1 / (4 * std::numbers::pi)));
   expect_near(shape<PointLight>("\"type\": \"point\", \"strength\": 683, \"unit\": \"cd\"").intensity, glm::vec3(1));
 }
 
@@ -156,14 +154,14 @@ TEST(SceneEntries, ASpotsPowerIsThatOfItsCone) {
       shape<SpotLight>("\"type\": \"spot\", \"strength\": 10, \"unit\": \"W\", \"inner_deg\": 20, \"outer_deg\": 50");
   // The same by the midpoint rule over the cosine, with the falloff as scene.h states it.
   double integral = 0;
-  const double inner = std::cos(20 * kPi / 180), outer = std::cos(50 * kPi / 180);
+  const double inner = std::cos(20 * std::numbers::pi / 180), outer = std::cos(50 * std::numbers::pi / 180);
   for (int i = 0; i < 100'000; ++i) {
     const double c = outer + (1 - outer) * (i + 0.5) / 100'000, t = std::min((c - outer) / (inner - outer), 1.0);
-    integral += 2 * kPi * t * t * (3 - 2 * t) * (1 - outer) / 100'000;
+    integral += 2 * std::numbers::pi * t * t * (3 - 2 * t) * (1 - outer) / 100'000;
   }
   EXPECT_NEAR(spot.intensity.x * integral, 10, 1e-5);  // float, and 1e-9 of the rule
-  EXPECT_FLOAT_EQ(spot.inner, static_cast<float>(20 * kPi / 180));
-  EXPECT_FLOAT_EQ(spot.outer, static_cast<float>(50 * kPi / 180));
+  EXPECT_FLOAT_EQ(spot.inner, static_cast<float>(20 * std::numbers::pi / 180));
+  EXPECT_FLOAT_EQ(spot.outer, static_cast<float>(50 * std::numbers::pi / 180));
   expect_near(shape<SpotLight>("\"type\": \"spot\", \"position\": [0, 1, 0], \"target\": [0, 1, 5]").direction,
               {0, 0, 1});
 }
@@ -171,15 +169,15 @@ TEST(SceneEntries, ASpotsPowerIsThatOfItsCone) {
 TEST(SceneEntries, AnAreaLightsPowerIsLambertian) {
   const auto one =
       shape<RectangleLight>("\"type\": \"rectangle\", \"size\": [2, 3], \"strength\": 12, \"unit\": \"W\"");
-  expect_near(one.radiance, glm::dvec3(12 / (kPi * 6)));
+  expect_near(one.radiance, glm::dvec3(12 / (std::numbers::pi * 6)));
   const auto two = shape<RectangleLight>(
       "\"type\": \"rectangle\", \"size\": [2, 3], \"strength\": 12, \"unit\": \"W\", \"two_sided\": true");
-  expect_near(two.radiance, glm::dvec3(6 / (kPi * 6)));
+  expect_near(two.radiance, glm::dvec3(6 / (std::numbers::pi * 6)));
   EXPECT_TRUE(two.two_sided);
   expect_near(shape<DiskLight>("\"type\": \"disk\", \"radius\": 2, \"strength\": 683, \"unit\": \"lm\"").radiance,
-              glm::dvec3(1 / (kPi * 4 * kPi)));
+              glm::dvec3(1 / (std::numbers::pi * 4 * std::numbers::pi)));
   expect_near(shape<SphereLight>("\"type\": \"sphere\", \"radius\": 2, \"strength\": 5, \"unit\": \"W\"").radiance,
-              glm::dvec3(5 / (4 * kPi * kPi * 4)));
+              glm::dvec3(5 / (4 * std::numbers::pi * std::numbers::pi * 4)));
   expect_near(shape<SphereLight>("\"type\": \"sphere\", \"strength\": 1366, \"unit\": \"cd/m2\"").radiance,
               glm::vec3(2));
   expect_near(shape<DirectionalLight>("\"type\": \"directional\", \"strength\": 683, \"unit\": \"lx\"").irradiance,
@@ -288,7 +286,7 @@ TEST(SceneEntries, TexelsThatAreNoLightAreMadeAndCounted) {
   EXPECT_EQ(scene.images[0].texels.floats[1], 65504);
   EXPECT_EQ(scene.images[0].texels.floats[2], 0);
   expect_near(scene.environment->scale, {1, 2, 3});
-  EXPECT_NEAR(scene.environment->turn, kPi / 2, 1e-6);  // 450 degrees
+  EXPECT_NEAR(scene.environment->turn, std::numbers::pi / 2, 1e-6);  // 450 degrees
   expect_near(scene_of_members("\"environment\": {\"radiance\": 683, \"unit\": \"cd/m2\"}").environment->scale,
               glm::vec3(1));
 }
