@@ -44,6 +44,7 @@ constexpr auto kFooter = R"(Examples
   likeness cost room.json --out out/room       what each setting of the run-time pipeline costs and gains on a scene
   likeness olat import photos/                 photographs under one light at a time, to be compared with renders
   likeness plan room.json                      which effects a scene calls for, and why
+  likeness olat import photos/                 photographs, one light at a time: compare them with renders
 
 Exit codes: 0 done, 1 a check said no, 2 usage, 3 a file cannot be used, 4 the program failed.
 Manual: docs/README.md)";

@@ -63,7 +63,7 @@ std::string milliseconds(double ms) {
 std::string kernel_text(const MaterialPlan& material) {
   if (material.model != C::kName) return "its own";
   const std::string parts = joined(parts_of(material));
-  return parts.empty() ? "one specular lobe" : "one specular lobe, " + parts;
+  return parts.empty() ? "first specular lobe" : "first specular lobe, " + parts;
 }
 
 std::string features_text(const MaterialPlan& material) { return joined(features_of(material)); }

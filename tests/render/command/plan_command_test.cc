@@ -1,3 +1,4 @@
+#include <filesystem>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -23,6 +24,20 @@ TEST(PlanCommand, PrintsEveryEffectAndTheMaterials) {
   EXPECT_NE(ran.out.find("light \"lamp\": sphere"), std::string::npos) << ran.out;
   EXPECT_NE(ran.out.find("plastic"), std::string::npos);
   EXPECT_EQ(shop.files(), (std::vector<std::string>{"ball.json"}));
+}
+
+TEST(PlanCommand, ReadsTheHeadOfTheManual) {
+  const std::filesystem::path scene = std::filesystem::path(LIKENESS_SOURCE_DIR) / "docs/scenes/head.json";
+  if (!std::filesystem::exists(scene.parent_path() / "../../../shared/data/heads"))
+    GTEST_SKIP() << "no shared/data/heads beside the checkout";
+  const Workshop shop;
+  const Ran ran = shop.run({"plan", scene.string(), "--json"});
+  ASSERT_EQ(ran.exit_code, 0) << ran.error;
+  for (const Json& effect : Json::parse(ran.out).at("effects"))
+    for (const char* name : {"textures", "normal_maps", "area_lights", "environment_picture", "second_lobe"})
+      if (effect.at("name") == name) {
+        EXPECT_EQ(effect.at("on"), true) << name;
+      }
 }
 
 TEST(PlanCommand, DrawsAPageAndADrawing) {

@@ -47,7 +47,7 @@ TEST(PlanText, SaysOfEveryEffectWhetherItIsOnAndWhy) {
     EXPECT_NE(text.find(line), std::string::npos) << line;
   }
   EXPECT_NE(text.find("on: 2 of " + std::to_string(kEffectCount)), std::string::npos) << text;
-  EXPECT_NE(text.find("kernel: one specular lobe, diffuse, retroreflection\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("kernel: first specular lobe, diffuse, retroreflection\n"), std::string::npos) << text;
 }
 
 TEST(PlanText, HasTheCostsWhereTheyWereMeasured) {
