@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "olat/pair/picture.h"
+#include "olat/registration/gain.h"
 #include "render/capture/pixels.h"
 #include "render/files/files.h"
 
@@ -28,37 +29,6 @@ std::size_t position(std::string_view what, const std::string& id, const List& l
 }
 
 float luminance(const float* rgb) { return 0.2126f * rgb[0] + 0.7152f * rgb[1] + 0.0722f * rgb[2]; }
-
-// Of the pairs (r, p): see match_gain.
-double robust_slope(const std::vector<float>& r, const std::vector<float>& p) {
-  double rr = 0, rp = 0;
-  for (std::size_t i = 0; i < r.size(); ++i)
-    rr += static_cast<double>(r[i]) * r[i], rp += static_cast<double>(r[i]) * p[i];
-  if (!(rr > 0)) return 1;
-  double gain = rp / rr;
-  std::vector<float> residual(r.size()), sorted;
-  constexpr int kRounds = 20;
-  constexpr double kHuber = 1.345, kSigmaOfMad = 1.4826;
-  for (int round = 0; round < kRounds; ++round) {
-    for (std::size_t i = 0; i < r.size(); ++i) residual[i] = std::abs(p[i] - static_cast<float>(gain) * r[i]);
-    sorted = residual;
-    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-    std::nth_element(sorted.begin(), middle, sorted.end());
-    const double limit = kHuber * kSigmaOfMad * static_cast<double>(*middle);
-    if (!(limit > 0)) break;  // half of the pixels agree exactly
-    rr = rp = 0;
-    for (std::size_t i = 0; i < r.size(); ++i) {
-      const double w = std::min(1.0, limit / std::max(static_cast<double>(residual[i]), 1e-30)) * r[i];
-      rr += w * r[i];
-      rp += w * p[i];
-    }
-    if (!(rr > 0)) break;
-    const double next = rp / rr, step = std::abs(next - gain);
-    gain = next;
-    if (step < 1e-7 * std::abs(gain)) break;
-  }
-  return gain > 0 ? gain : 1;
-}
 
 }  // namespace
 
@@ -109,22 +79,16 @@ Pair read_pair(const capture::Capture& capture, const Place& place) {
 }  // namespace
 
 std::array<double, 3> match_gain(const Pair& pair, bool by_channel) {
-  std::array<std::vector<float>, 3> r, p;
   if (pair.photo.rgb.size() != pair.render.rgb.size()) return {1, 1, 1};
   // A million pixels say as much as all of them.
   const std::size_t step = 1 + pair.flaws.size() / 1'000'000;
-  for (std::size_t i = 0; i < pair.flaws.size(); i += step) {
-    if (pair.flaws[i] != 0) continue;
-    for (std::size_t c = 0; c < 3; ++c) {
-      const float from = pair.render.rgb[3 * i + c], to = pair.photo.rgb[3 * i + c];
-      if (!std::isfinite(from) || !std::isfinite(to) || !(from > 0)) continue;
-      r[by_channel ? c : 0].push_back(from);
-      p[by_channel ? c : 0].push_back(to);
-    }
-  }
-  if (by_channel) return {robust_slope(r[0], p[0]), robust_slope(r[1], p[1]), robust_slope(r[2], p[2])};
-  const double gain = robust_slope(r[0], p[0]);
-  return {gain, gain, gain};
+  std::vector<float> weight(pair.flaws.size(), 0);
+  for (std::size_t i = 0; i < weight.size(); i += step) weight[i] = pair.flaws[i] == 0 ? 1 : 0;
+  const double noise = static_cast<double>(pair.noise);
+  const registration::Gain gain = registration::gain_between(pair.photo, pair.render, weight, {noise, noise, noise});
+  std::array<double, 3> out{};
+  for (std::size_t c = 0; c < 3; ++c) out[c] = std::exp2(by_channel ? gain.stops[c] : gain.all);
+  return out;
 }
 
 std::array<double, 3> gain_of(const capture::Capture& capture, const State& state, const Pair& pair) {

@@ -41,9 +41,8 @@ Place place_of(const capture::Capture& capture, const State& state);
 // files::InputError: a damaged file; a render of another size.
 Pair load_pair(const capture::Capture& capture, const State& state);
 
-// g that minimises sum w (photo - g render)^2 over the pixels without flaws, channel by channel or for all three, with
-// weights w that tame outliers (Huber, 1.345 sigma, 20 rounds): a highlight that a render lacks does not move it. 1 where
-// no pixel counts.
+// What the render is multiplied by to be the photo, channel by channel or for all three, from the pixels without flaws:
+// registration::gain_between, as `olat compare` has it. 1 where too few pixels count.
 std::array<double, 3> match_gain(const Pair& pair, bool by_channel);
 // The gain of a state: match_gain of its pair, or the median of those of at most 16 pairs evenly drawn from the capture.
 std::array<double, 3> gain_of(const capture::Capture& capture, const State& state, const Pair& pair);
