@@ -116,6 +116,7 @@ export class Stage {
 
   down(event) {
     this.canvas.setPointerCapture(event.pointerId);
+    this.layout();
     this.drag = { x: event.clientX, y: event.clientY, origin: [...this.window.origin] };
   }
   move(event) {
@@ -134,7 +135,9 @@ export class Stage {
     event.preventDefault();
     this.zoomBy(event.deltaY < 0 ? 1.25 : 0.8, event);
   }
+  // Keys and wheel come faster than frames: what they start from is the state, not the last frame.
   zoomBy(factor, event) {
+    this.layout();
     const { zoom, origin, pane, height, wedge } = this.window, box = this.canvas.getBoundingClientRect();
     const next = Math.min(64, Math.max(1 / 64, zoom * factor));
     let px = pane / 2, py = (height - wedge) / 2;

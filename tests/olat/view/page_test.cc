@@ -118,6 +118,14 @@ TEST_F(Page, HasAFunctionAndAnEffectForEachActionOfTheTable) {
   }
 }
 
+// Without a frame between the two, as when keys come fast.
+TEST_F(Page, ZoomsFromTheStateAndNotFromTheLastFrame) {
+  open("zoom=3.75");
+  EXPECT_EQ(evaluate("likeness.change({zoom:3}); likeness.actions.zoom_out(); String(likeness.state.zoom)"), "\"2.4\"");
+  EXPECT_EQ(evaluate("likeness.actions.zoom_in(); likeness.actions.zoom_in(); String(likeness.state.zoom)"),
+            "\"3.75\"");
+}
+
 TEST_F(Page, ChangesExposureInTheDirectionThatTheTableSays) {
   open("ev=1");
   press("e");
