@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "render/files/files.h"
+#include "render/image/exr_lines.h"
 #include "render/image/read.h"
 
 namespace likeness::image {
@@ -69,6 +70,7 @@ void check_exr_sampling(const Imf::Header& header, const std::string& channel, c
 }
 
 void read_channels(Imf::InputPart& part, std::span<const ChannelTarget> targets) {
+  if (read_zip_lines(part, targets)) return;
   const Extent data = extent_of(part.header().dataWindow()), shown = extent_of(part.header().displayWindow());
   const std::int64_t left = std::max(data.left, shown.left);
   const std::int64_t right = std::min(data.left + data.width, shown.left + shown.width);
