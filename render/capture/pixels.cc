@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -106,26 +107,45 @@ image::Picture read_encoded(const std::filesystem::path& file) {
   return out;
 }
 
+CameraLayers read_camera_layers(const Capture& capture, std::size_t camera) {
+  CameraLayers out;
+  if (const auto file = layer_file(capture, camera, Layer::kFlatField); !file.empty()) {
+    out.flat_field = image::read_texels(file);
+    must_fit(file, out.flat_field.width, out.flat_field.height, capture.cameras[camera]);
+  }
+  out.mask = read_mask(capture, camera);
+  return out;
+}
+
 Photo read_photo(const Capture& capture, std::size_t at) {
+  return read_photo(capture, at, read_camera_layers(capture, capture.frames[at].camera));
+}
+
+Photo read_photo(const Capture& capture, std::size_t at, const CameraLayers& layers) {
   const Frame& frame = capture.frames[at];
   const Camera& camera = capture.cameras[frame.camera];
   const std::filesystem::path file = photo_file(capture, frame);
-  const image::Texels texels = image::read_texels(file);
+  image::Texels texels = image::read_texels(file);
   must_fit(file, texels.width, texels.height, camera);
-  image::Texels flat;
-  if (const auto flat_file = layer_file(capture, frame.camera, Layer::kFlatField); !flat_file.empty()) {
-    flat = image::read_texels(flat_file);
-    must_fit(flat_file, flat.width, flat.height, camera);
-  }
-  const std::vector<std::uint8_t> mask = read_mask(capture, frame.camera);
+  const image::Texels& flat = layers.flat_field;
+  const std::vector<std::uint8_t>& mask = layers.mask;
 
-  Photo out{image::Picture(texels.width, texels.height), std::vector<std::uint8_t>(texels.count())};
+  // Three floats a pixel become its light in their own place.
+  Photo out;
+  out.light.width = texels.width;
+  out.light.height = texels.height;
+  const bool is_in_place = texels.channels == 3 && texels.bytes.empty();
+  if (!is_in_place) out.light.rgb.resize(3 * texels.count());
+  std::vector<float>& rgb = is_in_place ? texels.floats : out.light.rgb;
+  out.flaws.resize(texels.count());
   const Encoded encoded{texels}, flat_of{flat};
   const glm::dmat3 to_rec709 = rec709_from(frame, camera);
+  const bool is_linear = frame.transfer == Transfer::kLinear;
   const bool turns_colors = to_rec709 != glm::dmat3(1);
   const double scale = 1 / (frame.white - frame.black);
-  glm::dvec3 gain(frame.gain);
-  if (frame.kind == FrameKind::kOneLight) gain /= capture.lights[frame.light].intensity;
+  glm::dvec3 gain_of(frame.gain);
+  if (frame.kind == FrameKind::kOneLight) gain_of /= capture.lights[frame.light].intensity;
+  const std::array<double, 3> gain{gain_of.x, gain_of.y, gain_of.z};
   std::array<float, 256> of_byte{};  // a byte's value after black, white and curve
   for (std::size_t k = 0; k < 256 && !texels.bytes.empty(); ++k)
     of_byte[k] = linear_of(frame.transfer, static_cast<float>((double(k) / 255 - frame.black) * scale));
@@ -135,30 +155,34 @@ Photo read_photo(const Capture& capture, std::size_t at) {
     for (std::size_t i = first; i < last; ++i) {
       std::uint8_t flaws = mask[i] != 0 ? 0 : kMasked;
       bool is_black = true, is_finite = true;
-      glm::dvec3 light(0);
+      std::array<double, 3> light;
       for (std::size_t c = 0; c < 3; ++c) {
         const auto x = static_cast<float>((static_cast<double>(encoded(i, c)) - frame.black) * scale);
         if (!std::isfinite(x)) is_finite = false;
         if (x >= frame.clip) flaws |= kClipped;
         if (x > 0) is_black = false;
-        light[int(c)] = texels.bytes.empty() ? linear_of(frame.transfer, x)
-                                             : of_byte[texels.bytes[i * channels + (channels < 3 ? 0 : c)]];
+        if (!texels.bytes.empty()) light[c] = of_byte[texels.bytes[i * channels + (channels < 3 ? 0 : c)]];
+        else light[c] = is_linear ? x : linear_of(frame.transfer, x);
       }
-      if (turns_colors) light = to_rec709 * light;
-      light *= gain;
-      for (std::size_t c = 0; c < 3 && !flat.is_empty(); ++c) light[int(c)] /= static_cast<double>(flat_of(i, c));
-      for (int c = 0; c < 3; ++c)
-        if (!std::isfinite(static_cast<float>(light[c]))) is_finite = false;
+      if (turns_colors) {
+        const glm::dvec3 turned = to_rec709 * glm::dvec3(light[0], light[1], light[2]);
+        light = {turned.x, turned.y, turned.z};
+      }
+      for (std::size_t c = 0; c < 3; ++c) light[c] *= gain[c];
+      for (std::size_t c = 0; c < 3 && !flat.is_empty(); ++c) light[c] /= static_cast<double>(flat_of(i, c));
+      for (const double v : light)
+        if (!std::isfinite(static_cast<float>(v))) is_finite = false;
       if (!is_finite) {
         flaws |= kNotFinite;
-        light = glm::dvec3(0);
+        light = {0, 0, 0};
         is_black = false;
       }
       if (is_black) flaws |= kBlack;
-      for (std::size_t c = 0; c < 3; ++c) out.light.rgb[3 * i + c] = static_cast<float>(light[int(c)]);
+      for (std::size_t c = 0; c < 3; ++c) rgb[3 * i + c] = static_cast<float>(light[c]);
       out.flaws[i] = flaws;
     }
   });
+  if (is_in_place) out.light.rgb = std::move(texels.floats);
   return out;
 }
 

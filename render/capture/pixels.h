@@ -6,6 +6,7 @@
 
 #include "render/capture/capture.h"
 #include "render/image/picture.h"
+#include "render/image/texels.h"
 
 // The light that a photo holds: from the numbers of a file to linear light in the unit of the capture's unit light.
 namespace likeness::capture {
@@ -28,6 +29,14 @@ struct Photo {
 // damaged, or of another size than its camera. The flat field is that of the camera's layer; the ambient frame, if there
 // is one, is not subtracted here. Pictures are as distorted as their files.
 Photo read_photo(const Capture& capture, std::size_t frame);
+
+// What all photos of a camera are read with, for who reads many of them.
+struct CameraLayers {
+  std::vector<std::uint8_t> mask;  // as read_mask has it
+  image::Texels flat_field;        // without texels: there is none
+};
+CameraLayers read_camera_layers(const Capture& capture, std::size_t camera);
+Photo read_photo(const Capture& capture, std::size_t frame, const CameraLayers& layers);
 
 // A render: linear Rec. 709 as its file holds it (of a light of intensity 1, 1, 1).
 image::Picture read_render(const Capture& capture, const Variant& variant, std::size_t camera, std::size_t light);

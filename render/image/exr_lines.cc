@@ -4,15 +4,17 @@
 #include <ImfCompression.h>
 #include <ImfPartType.h>
 #include <half.h>
+#include <libdeflate.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
-#include <zlib.h>
 
 #include <algorithm>
 #include <bit>
 #include <cstdint>
 #include <cstring>
+#include <memory>
+#include <new>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -56,9 +58,12 @@ int lines_of_block(const Imf::Header& header) {
 void unzip(const Block& block, std::vector<unsigned char>& deflated, std::vector<unsigned char>& out) {
   const std::size_t size = out.size(), even = (size + 1) / 2;
   deflated.resize(size);
-  uLongf found = size;
-  if (uncompress(deflated.data(), &found, reinterpret_cast<const Bytef*>(block.bytes), block.size) != Z_OK ||
-      found != size)
+  thread_local const std::unique_ptr<libdeflate_decompressor, decltype(&libdeflate_free_decompressor)> inflater(
+      libdeflate_alloc_decompressor(), &libdeflate_free_decompressor);
+  if (!inflater) throw std::bad_alloc();
+  // Without a place for the size that was found, any other is an error.
+  if (libdeflate_zlib_decompress(inflater.get(), block.bytes, block.size, deflated.data(), size, nullptr) !=
+      LIBDEFLATE_SUCCESS)
     throw std::runtime_error("the block of line " + std::to_string(block.first) + " is damaged");
   const unsigned char *const a = deflated.data(), *const b = a + even;
   const auto next = [](unsigned before, unsigned difference) { return (before + difference + 128) & 255; };

@@ -2,11 +2,13 @@
 
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
+#include <ImfThreading.h>
 #include <ImfTileDescription.h>
 
 #include <algorithm>
 #include <cstdint>
 #include <exception>
+#include <thread>
 #include <vector>
 
 #include "render/files/files.h"
@@ -33,6 +35,15 @@ void limit_exr_headers() {
     return true;
   }();
   (void)kLimited;
+}
+
+int exr_threads() {
+  static const int kThreads = [] {
+    const int threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+    if (Imf::globalThreadCount() < threads) Imf::setGlobalThreadCount(threads);
+    return threads;
+  }();
+  return kThreads;
 }
 
 void check_exr_windows(const Imf::Header& header, const std::string& name, std::size_t most_texels) {

@@ -8,7 +8,6 @@
 #include <ImfOutputFile.h>
 #include <ImfPartType.h>
 #include <ImfStringAttribute.h>
-#include <ImfThreading.h>
 #include <half.h>
 
 #include <algorithm>
@@ -18,7 +17,6 @@
 #include <set>
 #include <stdexcept>
 #include <string>
-#include <thread>
 #include <utility>
 
 #include "render/files/files.h"
@@ -38,16 +36,6 @@ constexpr std::size_t kLongestName = 200;  // the format allows 255 for layer, d
 
 std::string full_name(const Layer& layer, const std::string& channel) {
   return layer.name.empty() ? channel : layer.name + "." + channel;
-}
-
-// OpenEXR's threads: it compresses 32 MB/s on each.
-int compression_threads() {
-  static const int kThreads = [] {
-    const int threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-    if (Imf::globalThreadCount() < threads) Imf::setGlobalThreadCount(threads);
-    return threads;
-  }();
-  return kThreads;
 }
 
 void check(const Layers& layers) {
@@ -110,7 +98,7 @@ void write_layers(const std::filesystem::path& file, const Layers& layers) {
       for (const std::string& channel : layer.channels)
         header.channels().insert(full_name(layer, channel), Imf::Channel(is_half ? Imf::HALF : Imf::FLOAT));
     }
-    Imf::OutputFile out(memory, header, compression_threads());
+    Imf::OutputFile out(memory, header, exr_threads());
     // A file takes the type of its channel only: halves are made for a block of lines at a time.
     const int kLines = 256;
     const std::size_t plane = width * static_cast<std::size_t>(std::min(kLines, layers.height));
@@ -152,7 +140,7 @@ Layers decode_layers(std::string_view bytes, const std::string& name, std::size_
   Layers out;
   with_exr_errors(name, [&] {
     MemoryInput stream(bytes);
-    Imf::MultiPartInputFile file(stream, compression_threads(), false);
+    Imf::MultiPartInputFile file(stream, exr_threads(), false);
     const Imf::Header& header = file.header(0);
     if (header.hasType() && Imf::isDeepData(header.type()))
       throw InputError(name + ": EXR is deep; expected a flat one");

@@ -8,6 +8,7 @@
 #include <exception>
 #include <new>
 #include <string>
+#include <utility>
 
 #include "render/files/files.h"
 #include "render/image/io_module.h"
@@ -144,9 +145,16 @@ Texels read_texels(const std::filesystem::path& file, const ReadOptions& options
 }
 
 Picture read_picture(const std::filesystem::path& file, const ReadOptions& options) {
-  const Texels texels = read_texels(file, options);
+  Texels texels = read_texels(file, options);
   std::array<float, 256> decoded{};
   for (std::size_t k = 0; k < 256; ++k) decoded[k] = static_cast<float>(srgb_decode8(static_cast<std::uint8_t>(k)));
+  if (texels.channels == 3 && texels.bytes.empty()) {
+    Picture same;
+    same.width = texels.width;
+    same.height = texels.height;
+    same.rgb = std::move(texels.floats);
+    return same;
+  }
   Picture out(texels.width, texels.height);
   const auto channels = static_cast<std::size_t>(texels.channels);
   for (std::size_t i = 0; i < texels.count(); ++i)

@@ -64,7 +64,7 @@ std::vector<std::string> picture_channels(const std::set<std::string>& found) {
 class Reader {
  public:
   Reader(std::string_view bytes, const std::string& name, const ReadOptions& options)
-      : name_(name), options_(options), stream_(bytes), file_(stream_, 0, false) {}
+      : name_(name), options_(options), stream_(bytes), file_(stream_, exr_threads(), false) {}
 
   Texels read() {
     const Choice choice = chosen();
