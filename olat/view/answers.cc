@@ -216,12 +216,21 @@ Cache::Entry Answers::picture(std::string_view kind, const State& state, int lev
   return above;
 }
 
+std::shared_ptr<const capture::CameraLayers> Answers::layers_of(std::size_t camera) {
+  const std::lock_guard lock(layers_mutex_);
+  if (layers_camera_ != camera || !layers_) {
+    layers_ = std::make_shared<const capture::CameraLayers>(capture::read_camera_layers(capture_, camera));
+    layers_camera_ = camera;
+  }
+  return layers_;
+}
+
 HalfPicture Answers::read(std::string_view kind, const State& state) {
   const Place place = olat_pair::place_of(capture_, state);
   if (kind == "photo") {
     const std::size_t at = frames_.frame(place.camera, place.light);
     if (at == kAbsent || !std::filesystem::exists(capture::photo_file(capture_, capture_.frames[at]))) return {};
-    const capture::Photo photo = capture::read_photo(capture_, at);
+    const capture::Photo photo = capture::read_photo(capture_, at, *layers_of(place.camera));
     return half_of(photo.light, photo.flaws);
   }
   if (kind == "render") {

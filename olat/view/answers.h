@@ -13,6 +13,7 @@
 #include "olat/pair/picture.h"
 #include "olat/view/cache.h"
 #include "render/capture/capture.h"
+#include "render/capture/pixels.h"
 
 // What the viewer's server says, without the server: a request is a path and its parameters, an answer is bytes. Files
 // are opened for reading only, and only those that the capture names: no path comes from a request.
@@ -64,12 +65,16 @@ class Answers {
   Answer pixels(const Parameters& parameters);
   Cache::Entry picture(std::string_view kind, const olat_pair::State& state, int level);
   HalfPicture read(std::string_view kind, const olat_pair::State& state);
+  std::shared_ptr<const capture::CameraLayers> layers_of(std::size_t camera);
   void score_all();
   Score score(const olat_pair::Place& place);
 
   const capture::Capture capture_;
   const capture::FrameTable frames_;
   Cache cache_;
+  std::mutex layers_mutex_;
+  std::size_t layers_camera_ = capture::kAbsent;  // whose mask and flat field are kept: the last camera's
+  std::shared_ptr<const capture::CameraLayers> layers_;
 
   std::thread scorer_;
   std::atomic<bool> stop_{false};

@@ -21,7 +21,7 @@ namespace likeness::olat_view {
 class Cache {
  public:
   using Entry = std::shared_ptr<const HalfPicture>;
-  static constexpr int kMakers = 2;
+  static constexpr int kMakers = 3;  // a pair, and one that is made ahead of time
 
   explicit Cache(std::size_t most_bytes) : most_bytes_(most_bytes) {}
 

@@ -1,6 +1,7 @@
 #include "olat/view/half_picture.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <Imath/half.h>
@@ -41,10 +42,12 @@ HalfPicture empty_of(int width, int height) {
 HalfPicture half_of(const image::Picture& picture, std::span<const std::uint8_t> flaws) {
   HalfPicture out = empty_of(picture.width, picture.height);
   const auto width = static_cast<std::size_t>(picture.width);
+  std::array<std::uint16_t, 256> bits_of_flaws{};
+  for (std::size_t k = 0; k < bits_of_flaws.size(); ++k) bits_of_flaws[k] = bits_of(static_cast<float>(k));
   over_rows(picture.height, [&](int y) {
     for (std::size_t i = static_cast<std::size_t>(y) * width; i < static_cast<std::size_t>(y + 1) * width; ++i) {
       for (std::size_t c = 0; c < 3; ++c) out.rgba[4 * i + c] = bits_of(picture.rgb[3 * i + c]);
-      out.rgba[4 * i + 3] = bits_of(flaws.empty() ? 0.0f : static_cast<float>(flaws[i]));
+      out.rgba[4 * i + 3] = flaws.empty() ? 0 : bits_of_flaws[flaws[i]];
     }
   });
   return out;

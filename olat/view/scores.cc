@@ -65,7 +65,7 @@ Answers::Score Answers::score(const olat_pair::Place& place) {
     if (at == kAbsent || !std::filesystem::exists(capture::photo_file(capture_, capture_.frames[at])) ||
         !std::filesystem::exists(capture::render_file(capture_, variant, place.camera, place.light)))
       return out;
-    const capture::Photo from = capture::read_photo(capture_, at);
+    const capture::Photo from = capture::read_photo(capture_, at, *layers_of(place.camera));
     const HalfPicture photo_half = reduced(half_of(from.light, from.flaws));
     const image::Picture photo = light_of(photo_half);
     const image::Picture render =
