@@ -18,6 +18,11 @@ endif()
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_FLAGS MATCHES "-fsanitize")
   list(APPEND LIKENESS_WARNINGS -Wno-maybe-uninitialized)  # false in instrumented code, as the manual of GCC says
 endif()
+# Static libraries are compiled so that a module can hold them; nobody replaces their functions, so calls within a source
+# file may be inlined as they are in a program.
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  add_compile_options(-fno-semantic-interposition)
+endif()
 add_library(likeness_warnings INTERFACE)
 add_library(likeness::warnings ALIAS likeness_warnings)
 target_compile_options(likeness_warnings INTERFACE ${LIKENESS_WARNINGS})

@@ -73,8 +73,7 @@ glm::vec3 Environment::direction_at(const glm::vec2& place) const {
   return {sine * std::sin(phi), std::cos(theta), -sine * std::cos(phi)};
 }
 
-glm::vec3 Environment::radiance(const glm::vec3& direction) const {
-  if (image_ == nullptr) return scale_;
+glm::vec3 Environment::pictured(const glm::vec3& direction) const {
   const glm::vec2 place = place_of(direction);
   const int width = image_->texels.width, height = image_->texels.height;
   const float x = place.x * static_cast<float>(width) - 0.5f, y = place.y * static_cast<float>(height) - 0.5f;

@@ -14,7 +14,7 @@ class Environment {
   Environment(const scene::Scene& scene, const scene::Environment& environment);
 
   // Radiance [W/(m^2 sr)] from a direction (unit).
-  glm::vec3 radiance(const glm::vec3& direction) const;
+  glm::vec3 radiance(const glm::vec3& direction) const { return has_picture() ? pictured(direction) : scale_; }
 
   // Whether it is worth choosing directions by: not where it is the same everywhere.
   bool has_picture() const { return image_ != nullptr; }
@@ -33,6 +33,8 @@ class Environment {
   glm::vec3 direction_at(const glm::vec2& place) const;
 
  private:
+  glm::vec3 pictured(const glm::vec3& direction) const;
+
   const scene::Image* image_ = nullptr;
   scene::Transfer transfer_ = scene::Transfer::kLinear;
   glm::vec3 scale_{1, 1, 1}, mean_{0, 0, 0};

@@ -26,6 +26,16 @@ struct Cases : F... {
   using F::operator()...;
 };
 
+// A light without size. `intensity` of a direction towards it and its distance.
+template <class Intensity>
+Sample towards_point(const glm::vec3& position, const glm::vec3& point, Intensity&& intensity) {
+  const glm::vec3 way = position - point;
+  const float distance2 = glm::dot(way, way), distance = std::sqrt(distance2);
+  if (!(distance2 > 0)) return {};
+  const glm::vec3 to_light = way / distance;
+  return {to_light, distance, intensity(to_light, distance) / distance2, 0, 0};
+}
+
 // 0 below the outer cone, 1 within the inner one.
 float cone(const scene::SpotLight& spot, float cosine) {
   const float low = std::cos(spot.outer), high = std::cos(spot.inner);
@@ -74,6 +84,14 @@ Lights::Lights(const scene::Scene& scene) : scene_(&scene), emitter_of_(scene.in
   }
   reads_point_ =
       std::any_of(scene.lights.begin(), scene.lights.end(), has_area) || !emitters_.empty() || samples_environment();
+  if (count() > 1) {
+    sample_ = &Lights::one_of_many;
+  } else if (count() == 1) {
+    const scene::Light* light = scene.lights.empty() ? nullptr : &scene.lights.front();
+    const bool is_bare = light != nullptr && std::holds_alternative<scene::PointLight>(light->shape) &&
+                         light->profile == scene::kNone && light->range == scene::kForever;
+    sample_ = is_bare ? &Lights::bare_point : &Lights::the_one;
+  }
 }
 
 float Lights::attenuation(const scene::Light& light, float distance) const {
@@ -101,12 +119,11 @@ Sample Lights::sample_light(std::size_t index, const glm::vec3& point, const glm
                               light.profile_zero, -to_light);
   };
   const auto from_point = [&](const glm::vec3& position, const glm::vec3& intensity, auto&& shape) -> Sample {
-    const glm::vec3 way = position - point;
-    const float distance2 = glm::dot(way, way), distance = std::sqrt(distance2);
-    if (!(distance2 > 0)) return {};
-    const glm::vec3 to_light = way / distance;
-    return {to_light, distance,
-            intensity * (shape(to_light) * profile(to_light) * attenuation(light, distance) / distance2), 0, index};
+    Sample s = towards_point(position, point, [&](const glm::vec3& to_light, float distance) {
+      return intensity * (shape(to_light) * profile(to_light) * attenuation(light, distance));
+    });
+    s.light = index;
+    return s;
   };
   const auto from_area = [&](const Towards& t, const glm::vec3& radiance) -> Sample {
     if (!(t.pdf > 0)) return {};
@@ -254,12 +271,23 @@ float Lights::probability(std::size_t index, const glm::vec3& point, const glm::
   return sum > 0 ? own / sum : 0.0f;
 }
 
-Sample Lights::sample(const glm::vec3& point, const glm::vec3& normal, float choice, const glm::vec2& u) const {
-  if (!reads_choice()) return is_empty() ? Sample{} : sample_light(0, point, u);
+Sample Lights::nothing(const Lights&, const glm::vec3&, const glm::vec3&, float, const glm::vec2&) { return {}; }
+
+Sample Lights::bare_point(const Lights& lights, const glm::vec3& point, const glm::vec3&, float, const glm::vec2&) {
+  const auto& light = *std::get_if<scene::PointLight>(&lights.scene_->lights.front().shape);
+  return towards_point(light.position, point, [&](const glm::vec3&, float) { return light.intensity; });
+}
+
+Sample Lights::the_one(const Lights& lights, const glm::vec3& point, const glm::vec3&, float, const glm::vec2& u) {
+  return lights.sample_light(0, point, u);
+}
+
+Sample Lights::one_of_many(const Lights& lights, const glm::vec3& point, const glm::vec3& normal, float choice,
+                           const glm::vec2& u) {
   float p = 1;
-  const std::size_t index = choose(point, normal, choice, p);
+  const std::size_t index = lights.choose(point, normal, choice, p);
   if (index == kNotOne || !(p > 0)) return {};
-  Sample s = sample_light(index, point, u);
+  Sample s = lights.sample_light(index, point, u);
   s.value = s.value / p;
   s.pdf *= p;
   return s;

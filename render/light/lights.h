@@ -64,7 +64,9 @@ class Lights {
 
   // One light for a point with a normal (unit): more likely those that may send more. The probability of the choice is in
   // value and pdf. `choice` is used up.
-  Sample sample(const glm::vec3& point, const glm::vec3& normal, float choice, const glm::vec2& u) const;
+  Sample sample(const glm::vec3& point, const glm::vec3& normal, float choice, const glm::vec2& u) const {
+    return sample_(*this, point, normal, choice, u);
+  }
 
   // A direction to light `index`, as if it were the only one.
   Sample sample_light(std::size_t index, const glm::vec3& point, const glm::vec2& u) const;
@@ -87,6 +89,13 @@ class Lights {
   float environment_pdf(const glm::vec3& point, const glm::vec3& normal, const glm::vec3& direction) const;
 
  private:
+  // The ways of sample(), of which the scene needs one.
+  static Sample nothing(const Lights&, const glm::vec3&, const glm::vec3&, float, const glm::vec2&);
+  static Sample bare_point(const Lights&, const glm::vec3& point, const glm::vec3&, float, const glm::vec2&);
+  static Sample the_one(const Lights&, const glm::vec3& point, const glm::vec3&, float, const glm::vec2& u);
+  static Sample one_of_many(const Lights&, const glm::vec3& point, const glm::vec3& normal, float choice,
+                            const glm::vec2& u);
+
   float weight(std::size_t index, const glm::vec3& point, const glm::vec3& normal) const;
   float probability(std::size_t index, const glm::vec3& point, const glm::vec3& normal) const;
   std::size_t choose(const glm::vec3& point, const glm::vec3& normal, float choice, float& probability) const;
@@ -99,6 +108,7 @@ class Lights {
   std::vector<std::size_t> emitter_of_;  // of each instance; npos: it does not emit
   std::optional<Environment> environment_;
   bool reads_point_ = false;
+  decltype(&Lights::nothing) sample_ = &Lights::nothing;
 };
 
 }  // namespace likeness::light

@@ -52,16 +52,17 @@ glm::vec3 follow(const world::World& world, ray::Ray ray, sampling::Samples& sam
   constexpr auto kDetail = (kParts & kTextures) != 0               ? surface::Detail::kTextures
                            : (kParts & (kEmission | kLayers)) != 0 ? surface::Detail::kNone
                                                                    : surface::Detail::kShape;
-  const std::size_t instances = world.scene.instances.size();
+  [[maybe_unused]] const std::size_t instances = world.scene.instances.size();
   Sum<kParts> sum;
   sum.first = first;
   glm::vec3 throughput(1);
-  float pdf = 0;  // of the ray's direction, by the surface that it left; 0: the camera's, or nothing else finds it
-  glm::vec3 from(0), from_normal(0);
+  // Of the ray's direction, by the surface that it left; 0: the camera's, or nothing else finds it. With kFound.
+  [[maybe_unused]] float pdf = 0;
+  [[maybe_unused]] glm::vec3 from(0), from_normal(0);
 
   for (int bounces = 0;; ++bounces) {
     ray::Hit hit = world.tracer.closest(ray);
-    if constexpr ((kParts & kLights) != 0) {
+    if constexpr ((kParts & kFound) != 0) {
       if (hit.is_some() && hit.surface >= instances) {
         // The surface behind is looked for from the start, so that a wall that a light is flush with is not slipped past.
         const ray::Hit behind = world.tracer.closest(ray, ray::Seen::kSurfaces);
@@ -85,7 +86,7 @@ glm::vec3 follow(const world::World& world, ray::Ray ray, sampling::Samples& sam
       if constexpr ((kParts & kEnvironment) != 0) {
         if (!world.lights.environment()) break;  // every effect is forced, and there is none
         float weight = 1;
-        if constexpr ((kParts & kLights) != 0)
+        if constexpr ((kParts & kFound) != 0)
           if (pdf > 0 && world.lights.samples_environment())
             weight = sampling::power_heuristic(pdf, world.lights.environment_pdf(from, from_normal, ray.direction));
         sum.add(throughput * world.lights.environment()->radiance(ray.direction) * weight, bounces);
@@ -127,7 +128,7 @@ glm::vec3 follow(const world::World& world, ray::Ray ray, sampling::Samples& sam
       const light::Sample light = world.lights.sample(point.position, point.shading_normal, choice.x, u);
       if (light.is_some()) {
         surface::Value f;
-        if (light.pdf > 0) f = point.eval(light.to_light);
+        if ((kParts & kFound) != 0 && light.pdf > 0) f = point.eval(light.to_light);
         else f.f_cos = point.f_cos(light.to_light);
         if (largest(f.f_cos) > 0) {
           // The ends are kept off the surfaces at both: an emissive surface must not shade itself.
@@ -135,9 +136,10 @@ glm::vec3 follow(const world::World& world, ray::Ray ray, sampling::Samples& sam
           if (!world.tracer.occluded({position, 0, light.to_light, far})) {
             if constexpr ((kParts & kLayers) != 0)
               if (bounces == 0) sum.diffuse_part = share_of_diffuse(point.lobes(light.to_light));
-            sum.add(throughput * f.f_cos * light.value *
-                        (light.pdf > 0 ? sampling::power_heuristic(light.pdf, f.pdf) : 1.0f),
-                    bounces + 1);
+            glm::vec3 arrived = throughput * f.f_cos * light.value;
+            if constexpr ((kParts & kFound) != 0)
+              if (light.pdf > 0) arrived *= sampling::power_heuristic(light.pdf, f.pdf);
+            sum.add(arrived, bounces + 1);
           }
         }
       }
@@ -154,16 +156,21 @@ glm::vec3 follow(const world::World& world, ray::Ray ray, sampling::Samples& sam
       throughput /= survival;
     }
     if (!(largest(throughput) > 0)) break;
-    pdf = next.pdf;
-    from = point.position, from_normal = point.shading_normal;
+    if constexpr ((kParts & kFound) != 0) pdf = next.pdf, from = point.position, from_normal = point.shading_normal;
     ray = {position, 0, next.to_light, ray::kFar};
   }
   return sum.radiance;
 }
 
+// A part with those that it needs.
+constexpr unsigned whole(unsigned parts) {
+  if ((parts & kEmission) != 0) parts |= kFound;
+  if ((parts & kFound) != 0) parts |= kLights;
+  return parts;
+}
 template <unsigned... P>
 constexpr std::array<PathFunction, sizeof...(P)> functions(std::integer_sequence<unsigned, P...>) {
-  return {&follow<P>...};
+  return {&follow<whole(P)>...};
 }
 constexpr auto kFunctions = functions(std::make_integer_sequence<unsigned, kPathParts>{});
 
@@ -173,12 +180,13 @@ unsigned path_parts(const plan::Plan& plan, bool has_layers) {
   using plan::Effect;
   const auto any = [&](auto... effects) { return (plan.has(effects) || ...); };
   unsigned parts = 0;
-  if (any(Effect::kPointLights, Effect::kAreaLights, Effect::kEmission, Effect::kEnvironmentPicture)) parts |= kLights;
+  if (any(Effect::kPointLights)) parts |= kLights;
+  if (any(Effect::kAreaLights, Effect::kEnvironmentPicture)) parts |= kFound;
   if (any(Effect::kEnvironment)) parts |= kEnvironment;
   if (any(Effect::kEmission)) parts |= kEmission;
   if (any(Effect::kTextures, Effect::kNormalMaps, Effect::kDualNormals)) parts |= kTextures;
   if (has_layers) parts |= kLayers;
-  return parts;
+  return whole(parts);
 }
 
 PathOptions path_options(const world::World& world, int max_bounces) {

@@ -16,11 +16,12 @@ namespace likeness::reference {
 // What the function below is compiled for: the rest costs nothing.
 enum PathPart : unsigned {
   kLights = 1,       // directions are chosen by lights: any but an environment that is the same everywhere
-  kEnvironment = 2,  // rays that leave the scene see something
-  kEmission = 4,     // surfaces shine
-  kTextures = 8,     // parameters or normals vary over surfaces
-  kLayers = 16,      // `first` is filled
-  kPathParts = 32
+  kFound = 2,        // by chance rays find such lights too: both ways are weighed against each other; with kLights
+  kEnvironment = 4,  // rays that leave the scene see something
+  kEmission = 8,     // surfaces shine; with kFound
+  kTextures = 16,    // parameters or normals vary over surfaces
+  kLayers = 32,      // `first` is filled
+  kPathParts = 64
 };
 unsigned path_parts(const plan::Plan& plan, bool has_layers);
 

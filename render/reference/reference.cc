@@ -34,7 +34,7 @@ void render(const world::World& world, const Options& options, Film& film,
   const world::Camera camera(world.scene.cameras[options.camera]);
   const PathFunction follow = path_function(path_parts(world.plan, options.has_layers));
   const PathOptions path = path_options(world, options.max_bounces);
-  const bool has_lens = camera.has_lens();
+  const bool has_lens = camera.has_lens(), has_layers = options.has_layers;
   const double start = seconds_now();
   std::atomic<bool> is_stopped = false;
   tbb::task_arena arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic);
@@ -55,6 +55,7 @@ void render(const world::World& world, const Options& options, Film& film,
     const auto tile = [&](const tbb::blocked_range2d<int>& pixels) {
       surface::Point point;
       First first;
+      First* const layers = has_layers ? &first : nullptr;
       for (int y = pixels.rows().begin(); y < pixels.rows().end(); ++y)
         for (int x = pixels.cols().begin(); x < pixels.cols().end(); ++x) {
           const auto pixel =
@@ -63,10 +64,10 @@ void render(const world::World& world, const Options& options, Film& film,
             sampling::Samples samples(static_cast<std::uint32_t>(pixel), sample, options.seed);
             const glm::vec2 in_pixel = samples.next();
             const glm::vec2 on_lens = has_lens ? samples.next() : glm::vec2(0.5f);
-            if (options.has_layers) first = {};
+            if (layers != nullptr) first = {};
             const glm::vec3 radiance =
-                follow(world, camera.ray(glm::vec2(x, y) + in_pixel, on_lens), samples, path, point, &first);
-            film.add(pixel, radiance, options.has_layers ? &first : nullptr);
+                follow(world, camera.ray(glm::vec2(x, y) + in_pixel, on_lens), samples, path, point, layers);
+            film.add(pixel, radiance, layers);
           }
         }
     };

@@ -29,7 +29,7 @@ glm::vec3 corner(const float* vertices, scene::Index index) {
 
 // A normal that the viewer is above of: a shading normal, or a mapped one, that turns away from a point that is seen is
 // bent back just so far.
-glm::vec3 facing(const glm::vec3& normal, const glm::vec3& to_view, const glm::vec3& geometric) {
+[[gnu::always_inline]] inline glm::vec3 facing(const glm::vec3& normal, const glm::vec3& to_view, const glm::vec3& geometric) {
   constexpr float kLeast = 1e-3f;  // cosine
   const float cosine = glm::dot(normal, to_view);
   if (cosine >= kLeast) return normal;
@@ -43,11 +43,13 @@ glm::vec3 normalized_or(const glm::vec3& v, const glm::vec3& otherwise) {
   return length2 > 0 && std::isfinite(length2) ? v / std::sqrt(length2) : otherwise;
 }
 
-// The frame of a point whose normal is known.
-void look_from(const glm::vec3& to_view, const glm::vec3& normal, Point& p) {
-  p.shading_normal = facing(normal, to_view, p.normal);
-  p.frame = ray::Frame(p.shading_normal);
-  p.to_view = p.frame.local(to_view);
+// The frame of a point whose normal is known. Vectors are values, and stored last: what lies in `p` is read again after
+// each store to it.
+[[gnu::always_inline]] inline void look_from(glm::vec3 to_view, glm::vec3 normal, glm::vec3 geometric, Point& p) {
+  normal = facing(normal, to_view, geometric);
+  const ray::Frame frame(normal);
+  const glm::vec3 local = frame.local(to_view);
+  p.shading_normal = normal, p.frame = frame, p.to_view = local;
 }
 
 // How textures are read: at full size,
@@ -122,41 +124,41 @@ glm::vec2 Surfaces::uv_at(scene::Index instance, scene::Index triangle, float u,
 }
 
 template <Detail kDetail>
-glm::vec3 Surfaces::meet(const ray::Ray& ray, const ray::Hit& hit, Point& p) const {
+[[gnu::always_inline]] inline glm::vec3 Surfaces::meet(const ray::Ray& ray, const ray::Hit& hit, Point& p) const {
   const Placed& placed = placed_[hit.surface];
   const scene::Mesh& mesh = *placed.mesh;
-  p.instance = hit.surface, p.triangle = hit.triangle, p.material = placed.material;
-  p.kernel = &placed.material->kernel;
   const glm::vec3 to_view = -ray.direction;
-  glm::vec3 normal;
+  glm::vec3 position, geometric, normal;
   if (mesh.is_sphere) {
-    p.normal = glm::normalize(ray.origin + hit.distance * ray.direction - placed.center);
-    p.position = placed.center + placed.radius * p.normal;
-    normal = p.normal;
+    geometric = glm::normalize(ray.origin + hit.distance * ray.direction - placed.center);
+    position = placed.center + placed.radius * geometric;
+    normal = geometric;
     if constexpr (kDetail != Detail::kShape)
-      p.uv = uv_of_sphere(glm::normalize(glm::transpose(placed.world_from_object) * p.normal));
+      p.uv = uv_of_sphere(glm::normalize(glm::transpose(placed.world_from_object) * geometric));
   } else {
     const auto& corners = mesh.triangles[hit.triangle];
     const float u = hit.u, v = hit.v, w = 1 - u - v;
     const glm::vec3 a = corner(placed.vertices, corners[0]), b = corner(placed.vertices, corners[1]),
                     c = corner(placed.vertices, corners[2]);
-    p.position = w * a + u * b + v * c;
-    p.normal = normalized_or(placed.is_mirrored ? glm::cross(c - a, b - a) : glm::cross(b - a, c - a), to_view);
-    normal = p.normal;
+    position = w * a + u * b + v * c;
+    geometric = normalized_or(placed.is_mirrored ? glm::cross(c - a, b - a) : glm::cross(b - a, c - a), to_view);
+    normal = geometric;
     if (!mesh.normals.empty()) {
       const glm::vec3 smooth =
           w * mesh.normals[corners[0]] + u * mesh.normals[corners[1]] + v * mesh.normals[corners[2]];
-      normal = normalized_or(placed.normal_from_object * smooth, p.normal);
+      normal = normalized_or(placed.normal_from_object * smooth, geometric);
       // The corners' order says nothing that their normals contradict.
-      if (glm::dot(normal, p.normal) < 0) p.normal = -p.normal;
+      if (glm::dot(normal, geometric) < 0) geometric = -geometric;
     }
     if constexpr (kDetail != Detail::kShape)
       p.uv = mesh.uvs.empty() ? glm::vec2(0)
                               : w * mesh.uvs[corners[0]] + u * mesh.uvs[corners[1]] + v * mesh.uvs[corners[2]];
   }
-  p.is_back = glm::dot(p.normal, to_view) < 0;
-  if (p.is_back) p.normal = -p.normal, normal = -normal;
-  p.bound = {};
+  const bool is_back = glm::dot(geometric, to_view) < 0;
+  if (is_back) geometric = -geometric, normal = -normal;
+  p.instance = hit.surface, p.triangle = hit.triangle, p.material = placed.material;
+  p.kernel = &placed.material->kernel;
+  p.position = position, p.normal = geometric, p.is_back = is_back;
   return normal;
 }
 
@@ -164,6 +166,7 @@ template <class Textures>
 void Surfaces::dress(const ray::Hit& hit, glm::vec3 normal, const glm::vec3& to_view, Textures&& textures,
                      Point& p) const {
   const Prepared& material = *p.material;
+  p.bound = {};
   p.bound.model = textures.model(p);
   if (material.normal_map != nullptr || material.diffuse_normal_map != nullptr) {
     const Placed& placed = placed_[hit.surface];
@@ -201,7 +204,7 @@ void Surfaces::dress(const ray::Hit& hit, glm::vec3 normal, const glm::vec3& to_
     normal = mapped;
   }
   textures.finish(p);
-  look_from(to_view, normal, p);
+  look_from(to_view, normal, p.normal, p);
 }
 
 template <Detail kDetail>
@@ -211,7 +214,7 @@ void Surfaces::at(const ray::Ray& ray, const ray::Hit& hit, Point& p) const {
     dress(hit, normal, to_view, AtFullSize{}, p);
   } else {
     p.bound.model = &p.material->model;
-    look_from(to_view, normal, p);
+    look_from(to_view, normal, p.normal, p);
   }
 }
 

@@ -61,7 +61,9 @@ class Surfaces {
   Surfaces(const scene::Scene& scene, const ray::Tracer& tracer, const std::vector<Prepared>& materials);
 
   // The point that a ray met. `hit` is on an instance, not on a light. kNone: no material has a texture, normal maps and
-  // dual normals included; kShape: and nobody reads uv, which is not set. point.bound may point into `point`: it is not to be copied.
+  // dual normals included; kShape: and nobody reads uv, which is not set. point.bound may
+  // point into `point`: it is not to be copied. Of a point that was never met with textures, without them only
+  // bound.model is set.
   template <Detail kDetail>
   void at(const ray::Ray& ray, const ray::Hit& hit, Point& point) const;
 

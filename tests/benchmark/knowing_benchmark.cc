@@ -18,7 +18,8 @@
 
 // What it costs to know more than a scene needs: the path tracer beside one that was compiled for nothing but the
 // scene's model and light (lean.h), on one thread, in turn. InRooms: its surfaces, its light and its model are functions
-// that are called, as ours are; Inlined: all of it is one function.
+// that are called, as ours are; Inlined: all of it is one function. OurSurfaces, OurModels, OurLights: InRooms with one
+// part after the other replaced by ours, so that each line's difference to the one before says what that part costs.
 //
 //     render_benchmark --benchmark_filter=Knowing
 //
@@ -118,7 +119,7 @@ void KnowingLambertAndPointLight(benchmark::State& state) {
   scene.materials[0].brdf = brdf::Lambert<double>{};
   const world::World world(scene, plan::plan_of(scene));
   const auto& light = std::get<scene::PointLight>(scene.lights[0].shape);
-  const lean::TrianglesAndPointLight only{scene, world.tracer, light.position, light.intensity};
+  const lean::TrianglesAndPointLight only{world, light.position, light.intensity};
   const world::Camera camera(scene.cameras[0]);
   compare(state, scene, world, [&](reference::Film& film) {
     for (const std::uint32_t end : kPasses) lean::render<How>(only, {}, camera, end, film);
@@ -126,6 +127,9 @@ void KnowingLambertAndPointLight(benchmark::State& state) {
 }
 BENCHMARK_TEMPLATE(KnowingLambertAndPointLight, lean::InRooms)->Iterations(1)->Unit(benchmark::kSecond);
 BENCHMARK_TEMPLATE(KnowingLambertAndPointLight, lean::Inlined)->Iterations(1)->Unit(benchmark::kSecond);
+BENCHMARK_TEMPLATE(KnowingLambertAndPointLight, lean::OurSurfaces)->Iterations(1)->Unit(benchmark::kSecond);
+BENCHMARK_TEMPLATE(KnowingLambertAndPointLight, lean::OurModels)->Iterations(1)->Unit(benchmark::kSecond);
+BENCHMARK_TEMPLATE(KnowingLambertAndPointLight, lean::OurLights)->Iterations(1)->Unit(benchmark::kSecond);
 
 template <template <class> class How>
 void KnowingGgxAndEnvironment(benchmark::State& state) {
@@ -137,7 +141,7 @@ void KnowingGgxAndEnvironment(benchmark::State& state) {
   scene.environment = scene::Environment{};
   scene.environment->scale = glm::vec3(1);
   const world::World world(scene, plan::plan_of(scene));
-  const lean::SphereAndEnvironment only{world.tracer, {0, 0, 0}, glm::vec3(1), 1};
+  const lean::SphereAndEnvironment only{world, {0, 0, 0}, glm::vec3(1), 1};
   brdf::Ggx<float> model;
   model.roughness = 0.4f;
   const world::Camera camera(scene.cameras[0]);
@@ -147,6 +151,8 @@ void KnowingGgxAndEnvironment(benchmark::State& state) {
 }
 BENCHMARK_TEMPLATE(KnowingGgxAndEnvironment, lean::InRooms)->Iterations(1)->Unit(benchmark::kSecond);
 BENCHMARK_TEMPLATE(KnowingGgxAndEnvironment, lean::Inlined)->Iterations(1)->Unit(benchmark::kSecond);
+BENCHMARK_TEMPLATE(KnowingGgxAndEnvironment, lean::OurSurfaces)->Iterations(1)->Unit(benchmark::kSecond);
+BENCHMARK_TEMPLATE(KnowingGgxAndEnvironment, lean::OurModels)->Iterations(1)->Unit(benchmark::kSecond);
 
 }  // namespace
 }  // namespace likeness

@@ -10,11 +10,11 @@
 #include "brdf/lambert.h"
 #include "render/ray/frame.h"
 #include "render/ray/offset.h"
-#include "render/ray/tracer.h"
 #include "render/reference/film.h"
 #include "render/sampling/sobol.h"
 #include "render/surface/kernel_of_model.h"
 #include "render/world/camera.h"
+#include "render/world/world.h"
 
 // Path tracers that know one model and one light, and were compiled for nothing else: no plan, no choice of a kernel, of
 // a light, of a shape. They ask for the same random numbers as reference::render() and make the same picture, so that
@@ -40,13 +40,12 @@ struct TrianglesAndPointLight {
   using Model = brdf::Lambert<float>;
   static constexpr bool kHasLight = true;
 
-  const scene::Scene& scene;
-  const ray::Tracer& tracer;
+  const world::World& world;
   glm::vec3 position, intensity;
 
   bool surface(const ray::Ray& ray, const ray::Hit& hit, glm::vec3& at, glm::vec3& normal) const {
-    const scene::Mesh& mesh = scene.meshes[scene.instances[hit.surface].mesh];
-    const float* vertices = tracer.vertices(hit.surface);
+    const scene::Mesh& mesh = world.scene.meshes[world.scene.instances[hit.surface].mesh];
+    const float* vertices = world.tracer.vertices(hit.surface);
     const auto& corners = mesh.triangles[hit.triangle];
     const auto corner = [&](std::size_t k) {
       const float* p = vertices + 3 * static_cast<std::size_t>(corners[k]);
@@ -66,7 +65,7 @@ struct SphereAndEnvironment {
   using Model = brdf::Ggx<float>;
   static constexpr bool kHasLight = false;
 
-  const ray::Tracer& tracer;
+  const world::World& world;
   glm::vec3 center, radiance;
   float radius;
 
@@ -80,18 +79,19 @@ struct SphereAndEnvironment {
 
 // What a path needs of a point that it met.
 struct Point {
-  glm::vec3 at, normal, to_view;  // the latter in the frame
+  glm::vec3 position, normal, to_view;  // the latter in the frame
   ray::Frame frame;
+  surface::Bound bound;
 };
 // What light arrives at it, unless it is hidden, and what it sends on.
 struct Arriving {
-  glm::vec3 to_light, sent;
+  glm::vec3 to_light, value;
   float distance;
 };
 
 template <class World>
 bool meet(const World& world, const ray::Ray& ray, const ray::Hit& hit, Point& p) {
-  if (!world.surface(ray, hit, p.at, p.normal)) return false;
+  if (!world.surface(ray, hit, p.position, p.normal)) return false;
   const glm::vec3 to_view = -ray.direction;
   p.frame = ray::Frame(facing(p.normal, to_view, p.normal));
   p.to_view = p.frame.local(to_view);
@@ -103,68 +103,95 @@ Arriving light_at(const World& world, const glm::vec3& at) {
   const float distance2 = glm::dot(way, way), distance = std::sqrt(distance2);
   return {way / distance, world.intensity / distance2, distance};
 }
-template <class World>
-glm::vec3 f_cos(const surface::Bound& bound, const Point& p, const glm::vec3& to_light) {
+template <class World, class P>
+glm::vec3 f_cos(const P& p, const glm::vec3& to_light) {
   if (glm::dot(to_light, p.normal) <= 0) return glm::vec3(0);
   return surface::f_cos_with<typename World::Model, surface::Whole<typename World::Model>>(
-      bound, p.frame.local(to_light), p.to_view);
+      p.bound, p.frame.local(to_light), p.to_view);
 }
-template <class World>
-surface::Direction sample(const surface::Bound& bound, const Point& p, float choice, const glm::vec2& u) {
+template <class World, class P>
+surface::Direction sample(const P& p, float choice, const glm::vec2& u) {
   using How = surface::Whole<typename World::Model>;
-  surface::Direction next = surface::sample_with<typename World::Model, How>(bound, p.to_view, choice, u);
+  surface::Direction next = surface::sample_with<typename World::Model, How>(p.bound, p.to_view, choice, u);
   next.to_light = p.frame.world(next.to_light);
   if (glm::dot(next.to_light, p.normal) <= 0) next.pdf = 0;
   return next;
 }
 
-// The four above, compiled into the loop around them, or called, as they are where each has a room of its own.
+// The four above, compiled into the loop around them,
 template <class World>
 struct Inlined {
+  using Point = lean::Point;
   static bool meet(const World& w, const ray::Ray& r, const ray::Hit& h, Point& p) { return lean::meet(w, r, h, p); }
-  static Arriving light_at(const World& w, const glm::vec3& at) { return lean::light_at(w, at); }
-  static glm::vec3 f_cos(const surface::Bound& b, const Point& p, const glm::vec3& l) {
-    return lean::f_cos<World>(b, p, l);
-  }
-  static surface::Direction sample(const surface::Bound& b, const Point& p, float choice, const glm::vec2& u) {
-    return lean::sample<World>(b, p, choice, u);
+  static Arriving light_at(const World& w, const Point& p) { return lean::light_at(w, p.position); }
+  static glm::vec3 f_cos(const Point& p, const glm::vec3& l) { return lean::f_cos<World>(p, l); }
+  static surface::Direction sample(const Point& p, float choice, const glm::vec2& u) {
+    return lean::sample<World>(p, choice, u);
   }
 };
+// or called, as they are where each has a room of its own;
 template <class World>
-struct InRooms {
+struct InRooms : Inlined<World> {
   [[gnu::noinline]] static bool meet(const World& w, const ray::Ray& r, const ray::Hit& h, Point& p) {
     return lean::meet(w, r, h, p);
   }
-  [[gnu::noinline]] static Arriving light_at(const World& w, const glm::vec3& at) { return lean::light_at(w, at); }
-  [[gnu::noinline]] static glm::vec3 f_cos(const surface::Bound& b, const Point& p, const glm::vec3& l) {
-    return lean::f_cos<World>(b, p, l);
+  [[gnu::noinline]] static Arriving light_at(const World& w, const Point& p) { return lean::light_at(w, p.position); }
+  [[gnu::noinline]] static glm::vec3 f_cos(const Point& p, const glm::vec3& l) { return lean::f_cos<World>(p, l); }
+  [[gnu::noinline]] static surface::Direction sample(const Point& p, float choice, const glm::vec2& u) {
+    return lean::sample<World>(p, choice, u);
   }
-  [[gnu::noinline]] static surface::Direction sample(const surface::Bound& b, const Point& p, float choice,
-                                                     const glm::vec2& u) {
-    return lean::sample<World>(b, p, choice, u);
+};
+// then one after the other replaced by ours: the surfaces, which know meshes, spheres, mirrored and smooth ones, and have
+// a point for everyone who may ask;
+template <class World>
+struct OurSurfaces : InRooms<World> {
+  using Point = surface::Point;
+  static bool meet(const World& w, const ray::Ray& r, const ray::Hit& h, Point& p) {
+    w.world.surfaces.template at<surface::Detail::kShape>(r, h, p);
+    return !p.is_black();
+  }
+  static Arriving light_at(const World& w, const Point& p) { return called(w, p.position); }
+  [[gnu::noinline]] static glm::vec3 f_cos(const Point& p, const glm::vec3& l) { return lean::f_cos<World>(p, l); }
+  [[gnu::noinline]] static surface::Direction sample(const Point& p, float choice, const glm::vec2& u) {
+    return lean::sample<World>(p, choice, u);
+  }
+
+ private:
+  [[gnu::noinline]] static Arriving called(const World& w, const glm::vec3& at) { return lean::light_at(w, at); }
+};
+// the models behind pointers;
+template <class World>
+struct OurModels : OurSurfaces<World> {
+  static glm::vec3 f_cos(const surface::Point& p, const glm::vec3& l) { return p.f_cos(l); }
+  static surface::Direction sample(const surface::Point& p, float choice, const glm::vec2& u) {
+    return p.sample(choice, u);
+  }
+};
+// and the lights. What is left to the whole is the loop over pixels and bounces.
+template <class World>
+struct OurLights : OurModels<World> {
+  static light::Sample light_at(const World& w, const surface::Point& p) {
+    return w.world.lights.sample(p.position, p.shading_normal, 0.5f, glm::vec2(0.5f));
   }
 };
 
 template <template <class> class How, class World>
-glm::vec3 follow(const World& world, const typename World::Model& model, ray::Ray ray, sampling::Samples& samples) {
+glm::vec3 follow(const World& world, typename How<World>::Point& p, ray::Ray ray, sampling::Samples& samples) {
   using Call = How<World>;
   glm::vec3 sum(0), throughput(1);
-  surface::Bound bound;
-  bound.model = &model;
-  Point p;
   for (int bounces = 0;; ++bounces) {
-    const ray::Hit hit = world.tracer.closest(ray);
+    const ray::Hit hit = world.world.tracer.closest(ray);
     if (!hit.is_some()) return sum + throughput * world.environment();
     if (!Call::meet(world, ray, hit, p) || bounces >= kMostBounces) return sum;
-    const glm::vec3 origin = ray::beside(p.at, p.normal);
+    const glm::vec3 origin = ray::beside(p.position, p.normal);
     samples.skip(), samples.skip();  // neither a lobe, nor a light, nor a point of it is chosen
     if constexpr (World::kHasLight) {
-      const Arriving light = Call::light_at(world, p.at);
-      const glm::vec3 f = Call::f_cos(bound, p, light.to_light);
-      if (largest(f) > 0 && !world.tracer.occluded({origin, 0, light.to_light, light.distance * (1 - 1e-4f)}))
-        sum += throughput * f * light.sent;
+      const auto light = Call::light_at(world, p);
+      const glm::vec3 f = Call::f_cos(p, light.to_light);
+      if (largest(f) > 0 && !world.world.tracer.occluded({origin, 0, light.to_light, light.distance * (1 - 1e-4f)}))
+        sum += throughput * f * light.value;
     }
-    const surface::Direction next = Call::sample(bound, p, 0, samples.next());
+    const surface::Direction next = Call::sample(p, 0, samples.next());
     if (!(next.pdf > 0)) return sum;
     throughput *= next.weight;
     if (bounces >= kFirstRoulette) {
@@ -182,6 +209,8 @@ template <template <class> class How, class World>
 void render(const World& world, const typename World::Model& model, const world::Camera& camera, std::uint32_t end,
             reference::Film& film) {
   constexpr int kTile = 16;
+  typename How<World>::Point point;
+  point.bound.model = &model;
   for (int ty = 0; ty < camera.height(); ty += kTile)
     for (int tx = 0; tx < camera.width(); tx += kTile)
       for (int y = ty; y < std::min(ty + kTile, camera.height()); ++y)
@@ -191,7 +220,7 @@ void render(const World& world, const typename World::Model& model, const world:
           for (std::uint32_t sample = film.samples(pixel); sample < end; ++sample) {
             sampling::Samples samples(static_cast<std::uint32_t>(pixel), sample, 0);
             const ray::Ray ray = camera.ray(glm::vec2(x, y) + samples.next());
-            film.add(pixel, follow<How>(world, model, ray, samples), nullptr);
+            film.add(pixel, follow<How>(world, point, ray, samples), nullptr);
           }
         }
 }
