@@ -2,7 +2,7 @@
 // neighbours ahead of time.
 import { textOf } from './state.js';
 
-const kMostBytes = 400e6, kAhead = 2, kParallel = 1;  // one, so that the server has a thread left for what is asked for now
+const kMostBytes = 400e6, kAhead = 2, kParallel = 1, kPartly = 120;  // one, so that the server has a thread left for what is asked for now
 
 // From the program that serves the page. A source answers: capture(), tables(), shader(), pixels(), gain(), frame(),
 // scores().
@@ -71,15 +71,13 @@ export class Pictures {
   entryOf(kind, where, level, now) {
     const key = `${kind} ${level} ${where}`;
     let entry = this.entries.get(key);
-    if (entry) {
-      this.entries.delete(key);
-      this.entries.set(key, entry);
-      if (now && entry.waiting) this.start(entry);
-      return entry;
-    }
-    entry = { key, kind, where, level, ready: false, waiting: true, bytes: 0 };
+    if (entry) this.entries.delete(key);
+    else entry = { key, kind, where, level, ready: false, waiting: true, bytes: 0 };
     this.entries.set(key, entry);
-    if (now) this.start(entry);
+    if (now && !entry.ready) {
+      entry.now = true;
+      if (entry.waiting) this.start(entry);
+    }
     return entry;
   }
 
@@ -96,7 +94,12 @@ export class Pictures {
       entry.error = error.status === 404 ? null : error.message;
     }
     entry.ready = true;
-    this.changed(entry);
+    if (!entry.now) return;
+    entry.now = false;
+    // One frame for a pair: the first of two waits for the second, if that is not long.
+    clearTimeout(this.partly);
+    if ([...this.entries.values()].some(other => other.now)) this.partly = setTimeout(() => this.changed(entry), kPartly);
+    else this.changed(entry);
   }
 
   shrink(but) {

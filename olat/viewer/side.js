@@ -61,7 +61,7 @@ const kLow = -10, kHigh = 8, kBins = 4 * (kHigh - kLow);
 export function binsOf(entry, ev, gain = [1, 1, 1], mask = null) {
   const bins = new Float64Array(kBins), weight = 0.2126 * gain[0] + 0.7152 * gain[1] + 0.0722 * gain[2];
   let count = 0;
-  const total = entry.width * entry.height, step = Math.max(1, Math.floor(total / 200000));
+  const total = entry.width * entry.height, step = Math.max(1, Math.floor(total / 65536));
   for (let i = 0; i < total; i += step) {
     if (mask && flawsAt(mask, i) & kMasked) continue;
     ++count;

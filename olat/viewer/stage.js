@@ -52,12 +52,20 @@ export class Stage {
     return Math.min(level, 12);
   }
 
+  needs() {
+    const { state } = this.app;
+    return state.mode === 'difference' && ['flip', 'hdr_flip'].includes(state.metric) ? ['photo', 'render', 'flip'] : ['photo', 'render'];
+  }
+  // Sends for the pictures of the state before the next frame is due.
+  ask() {
+    for (const kind of this.needs()) this.app.pictures.find(kind, this.app.state, this.level());
+  }
+
   draw() {
     const { app } = this, { state, pictures } = app;
     this.layout();
     pictures.frame = (pictures.frame ?? 0) + 1;
-    const level = this.level(), needs = ['photo', 'render'];
-    if (state.mode === 'difference' && ['flip', 'hdr_flip'].includes(state.metric)) needs.push('flip');
+    const level = this.level(), needs = this.needs();
     const pair = { width: this.size.width, height: this.size.height, gain: [1, 1, 1], noise: 1e-4 };
     let complete = true;
     this.shownEntries = {};

@@ -95,7 +95,7 @@ class Viewer {
     if (['photo', 'render'].includes(this.state.mode)) this.lastSingle = this.state.mode;
     this.findPlace();
     this.seen.add(this.state.camera + '/' + this.state.light);
-    this.changedAt = performance.now();
+    if (['camera', 'light', 'variant'].some(name => name in part)) this.stage?.ask();
     this.redraw();
     this.showControls();
     this.announce(part);
