@@ -80,6 +80,18 @@ function(likeness_library name)
   set_property(GLOBAL APPEND_STRING PROPERTY LIKENESS_ROOMS "${rooms}")
 endfunction()
 
+# A part of a room that is loaded when it is first used (render/files/module.h), for libraries that cost every process time.
+function(likeness_module name)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "ROOM" "SOURCES;WITH")
+  add_library(likeness_${name} MODULE ${arg_SOURCES})
+  target_include_directories(likeness_${name} PRIVATE ${PROJECT_SOURCE_DIR})
+  target_link_libraries(likeness_${name} PRIVATE ${arg_WITH} likeness::warnings)
+  set_target_properties(likeness_${name} PROPERTIES PREFIX "" CXX_VISIBILITY_PRESET hidden
+                        LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/lib/likeness)
+  add_dependencies(likeness_${arg_ROOM} likeness_${name})
+  install(TARGETS likeness_${name} LIBRARY DESTINATION lib/likeness COMPONENT ${arg_ROOM})
+endfunction()
+
 # Installs the package file that find_package(likeness CONFIG [COMPONENTS brdf fit ...]) reads. It travels with brdf,
 # which every other room stands on.
 function(likeness_package)

@@ -12,6 +12,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "olat/calibrate/chrome.h"
+#include "olat/calibrate/find_chart.h"
 #include "olat/registration/gain.h"
 #include "olat/registration/noise.h"
 #include "olat/registration/plane.h"
@@ -275,6 +276,31 @@ image::Picture read_as(const Run& run, const std::string& file, std::size_t came
                           " has no photo that would say what its numbers mean");
 }
 
+// As the command line takes them.
+std::string text_of_corners(const Corners& corners) {
+  std::string out;
+  for (const auto& [x, y] : corners)
+    out += (out.empty() ? "--corner " : " --corner ") + files::number_text(std::round(10 * x) / 10) + "," +
+           files::number_text(std::round(10 * y) / 10);
+  return out;
+}
+
+// The only chart of the photo.
+Corners found_in(const Run& run, const image::Picture& photo, const Reference& reference) {
+  run.tell("chart", 0);
+  const std::vector<FoundChart> found = find_charts(photo, reference);
+  if (found.empty())
+    throw files::UsageError(run.options.chart +
+                            ": no chart of 24 patches was found; say where it is by four --corner x,y (of patch 1, 6, "
+                            "24 and 19)");
+  if (found.size() > 1)
+    throw files::UsageError(run.options.chart + ": shows " + std::to_string(found.size()) + " charts; say which: " +
+                            text_of_corners(found[0].corners) + ", or " + text_of_corners(found[1].corners));
+  run.note("the chart was found at " + text_of_corners(found[0].corners) + " (" + std::to_string(found[0].patches) +
+           " of 24 patches seen)");
+  return found[0].corners;
+}
+
 void chart(const Run& run) {
   if (run.options.reference.empty()) throw files::UsageError("--chart needs --reference, the chart's measured values");
   const Reference reference = read_reference(run.options.reference);
@@ -282,7 +308,8 @@ void chart(const Run& run) {
   const std::set<std::size_t> cameras = cameras_of(run);
   if (cameras.empty()) throw files::UsageError("the capture has no cameras");
   const image::Picture photo = read_as(run, run.options.chart, *cameras.begin());
-  run.result.chart = fit_chart(patches_of(photo, run.options.corners), reference);
+  const Corners corners = run.options.corners ? *run.options.corners : found_in(run, photo, reference);
+  run.result.chart = fit_chart(patches_of(photo, corners), reference);
   Capture& out = run.result.capture;
   for (const std::size_t camera : cameras) {
     for (capture::Frame& frame : out.frames) {

@@ -25,8 +25,8 @@ struct Options {
   bool noise = false;                        // the noise floor of each camera
   std::string camera;                        // of chart and flat field; empty: all
   std::string chart, reference;              // a photo of a chart, and its values
-  Corners corners{};
-  std::string flat;  // a photo of an evenly lit, even surface
+  std::optional<Corners> corners;            // of the chart; without them it is looked for
+  std::string flat;                          // a photo of an evenly lit, even surface
   std::function<bool(std::string_view what, double share)> keep_going;
 };
 

@@ -11,6 +11,7 @@
 #include <Eigen/LU>
 #include <Eigen/QR>
 
+#include "olat/calibrate/perspective.h"
 #include "olat/metric/formulas.h"
 #include "render/files/files.h"
 
@@ -173,20 +174,8 @@ Colors patches_of(const image::Picture& photo, const Corners& corners) {
           "green) "
           "and 24 (black) to that of 19 (white)");
   }
-  // u = (h0 x + h1 y + h2) / (h6 x + h7 y + 1), v likewise, for the corners of a 6 x 4 chart.
-  Eigen::Matrix<double, 8, 8> equations;
-  Eigen::Matrix<double, 8, 1> right;
-  const std::array<std::array<double, 2>, 4> at{
-      {{0, 0}, {kPatchColumns, 0}, {kPatchColumns, kPatchRows}, {0, kPatchRows}}};
-  for (int i = 0; i < 4; ++i) {
-    const double x = at[static_cast<std::size_t>(i)][0], y = at[static_cast<std::size_t>(i)][1];
-    const double u = corners[static_cast<std::size_t>(i)][0], v = corners[static_cast<std::size_t>(i)][1];
-    equations.row(2 * i) << x, y, 1, 0, 0, 0, -u * x, -u * y;
-    equations.row(2 * i + 1) << 0, 0, 0, x, y, 1, -v * x, -v * y;
-    right[2 * i] = u;
-    right[2 * i + 1] = v;
-  }
-  const Eigen::Matrix<double, 8, 1> h = equations.fullPivLu().solve(right);
+  const std::array<Point, 4> cells{{{0, 0}, {kPatchColumns, 0}, {kPatchColumns, kPatchRows}, {0, kPatchRows}}};
+  const Perspective seen = perspective_of(cells, corners);
   Colors out{};
   constexpr int kSamples = 24;
   constexpr double kMiddle = 0.4;  // of a cell, a side: frames and shadows of frames stay out
@@ -196,9 +185,9 @@ Colors patches_of(const image::Picture& photo, const Corners& corners) {
       for (int i = 0; i < kSamples; ++i) {
         const double x = static_cast<double>(patch % kPatchColumns) + 0.5 + kMiddle * ((i + 0.5) / kSamples - 0.5);
         const double y = static_cast<double>(patch / kPatchColumns) + 0.5 + kMiddle * ((j + 0.5) / kSamples - 0.5);
-        const double w = h[6] * x + h[7] * y + 1;
-        const int px = std::clamp(static_cast<int>((h[0] * x + h[1] * y + h[2]) / w), 0, photo.width - 1);
-        const int py = std::clamp(static_cast<int>((h[3] * x + h[4] * y + h[5]) / w), 0, photo.height - 1);
+        const auto [u, v] = seen(x, y);
+        const int px = std::clamp(static_cast<int>(u), 0, photo.width - 1);
+        const int py = std::clamp(static_cast<int>(v), 0, photo.height - 1);
         for (std::size_t c = 0; c < 3; ++c) values[c].push_back(static_cast<double>(photo.at(px, py)[c]));
       }
     for (std::size_t c = 0; c < 3; ++c) {

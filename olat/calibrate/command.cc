@@ -9,6 +9,7 @@
 #include <CLI/CLI.hpp>
 
 #include "olat/calibrate/calibrate.h"
+#include "olat/calibrate/undistort.h"
 #include "render/capture/files_of_capture.h"
 #include "render/files/files.h"
 #include "render/files/interrupt.h"
@@ -21,11 +22,13 @@ struct CommandLine {
   std::string capture, gain, grey, chrome, out;
   std::vector<std::string> corners;
   Options options;
-  bool json = false, dry = false;
+  bool json = false, dry = false, undistort = false;
 };
 
 Corners corners_of(const std::vector<std::string>& texts) {
-  if (texts.size() != 4) throw files::UsageError("--chart needs four --corner x,y: of patch 1, 6, 24 and 19");
+  if (texts.size() != 4)
+    throw files::UsageError(
+        "--chart needs four --corner x,y (of patch 1, 6, 24 and 19), or none: then it is looked for");
   Corners out{};
   for (std::size_t i = 0; i < 4; ++i) {
     int used = 0;
@@ -34,6 +37,23 @@ Corners corners_of(const std::vector<std::string>& texts) {
       throw files::UsageError("--corner " + files::in_quotes(texts[i]) + " is no x,y in pixels");
   }
   return out;
+}
+
+int undistort(const CommandLine& line, const capture::Capture& capture) {
+  files::catch_interrupts();
+  try {
+    files::Progress progress;
+    const Undistorted result = run_undistort(capture, line.out, [&](std::string_view what, double share) {
+      progress.tell(what, share);
+      return !files::interrupted();
+    });
+    std::cout << (line.json ? json_of(result) : text_of(result));
+    std::cerr << "written: " << line.out << "/capture.json\n";
+    return 0;
+  } catch (const files::Interrupted&) {
+    std::cerr << "likeness olat calibrate: interrupted; " << line.out << " is no capture yet\n";
+    return 130;
+  }
 }
 
 int run(CommandLine line) {
@@ -45,11 +65,16 @@ int run(CommandLine line) {
   }
   if (!line.grey.empty() && options.gain == GainOf::kNothing)
     throw files::UsageError("--grey is for --gain light or --gain channel");
-  if (!options.chart.empty()) options.corners = corners_of(line.corners);
-  if (options.gain == GainOf::kNothing && line.chrome.empty() && !options.noise && options.chart.empty() &&
-      options.flat.empty())
-    throw files::UsageError("nothing to calibrate; there are --gain, --chrome, --noise, --chart and --flat");
+  if (!options.chart.empty() && !line.corners.empty()) options.corners = corners_of(line.corners);
+  const bool measures = options.gain != GainOf::kNothing || !line.chrome.empty() || options.noise ||
+                        !options.chart.empty() || !options.flat.empty();
+  if (line.undistort && (measures || line.out.empty() || line.dry))
+    throw files::UsageError(line.out.empty() ? "--undistort writes new photographs; say where by --out FOLDER"
+                                             : "--undistort stands alone; calibrate the capture that it writes");
+  if (!measures && !line.undistort)
+    throw files::UsageError("nothing to calibrate; there are --gain, --chrome, --noise, --chart, --flat, --undistort");
   const capture::Capture capture = capture::read_capture(line.capture);
+  if (line.undistort) return undistort(line, capture);
   capture::Capture grey, chrome;
   if (!line.grey.empty()) grey = capture::read_capture(line.grey), options.grey = &grey;
   if (!line.chrome.empty()) chrome = capture::read_capture(line.chrome), options.chrome = &chrome;
@@ -79,11 +104,15 @@ constexpr auto kFooter = R"(Examples
                                                           intensities and white balance, from photos of a grey card
   likeness olat calibrate capture --chrome ball.capture   directions of lights, from photos of a mirror ball
   likeness olat calibrate capture --noise                 the noise floor of each camera
+  likeness olat calibrate capture --chart chart.dng --reference chart.csv
+                                                          colors of the camera, with Delta E at three stages
   likeness olat calibrate capture --chart chart.dng --reference chart.csv \
       --corner 120,80 --corner 900,90 --corner 890,610 --corner 115,600
-                                                          colors of the camera, with Delta E at three stages
+                                                          the same, where the chart is not found or not alone
   likeness olat calibrate capture --camera c1 --flat white.exr
                                                           what lens and sensor darken
+  likeness olat calibrate capture --undistort --out straight.capture
+                                                          pictures as pinholes would have taken them
   likeness olat calibrate capture --gain light --dry-run  what would change
 
 Without --out the files of the capture change, and what they were is kept beside them as lights.1.json and so on.
@@ -107,10 +136,12 @@ void add_calibrate(CLI::App& olat, int& exit_code) {
                   "Capture of a mirror ball under the same lights; its mask says where it is");
   app->add_flag("--noise", line->options.noise, "Noise floor of each camera");
   app->add_option("--chart", line->options.chart, "Photo of a chart of 24 patches");
-  app->add_option("--corner", line->corners, "x,y [pixel] of the chart's corner at patch 1, then 6, 24, 19");
+  app->add_option("--corner", line->corners,
+                  "x,y [pixel] of the chart's corner at patch 1, then 6, 24, 19; without, it is looked for");
   app->add_option("--reference", line->options.reference, "Its values: CSV of patch, and Lab or xyY for D50");
   app->add_option("--flat", line->options.flat, "Photo of an even surface in even light");
   app->add_option("--camera", line->options.camera, "Camera of --chart and --flat; without it, all");
+  app->add_flag("--undistort", line->undistort, "Pictures of pinholes from those of the lenses, into --out");
   app->add_option("--out", line->out, "Folder for a new capture, instead of changing this one");
   app->add_flag("--dry-run", line->dry, "Print the changes, and write nothing");
   app->add_flag("--json", line->json, "Print the changes as JSON");

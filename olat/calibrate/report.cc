@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "olat/calibrate/calibrate.h"
+#include "olat/calibrate/undistort.h"
 #include "render/capture/files_of_capture.h"
 #include "render/files/files.h"
 #include "render/image/write.h"
@@ -45,17 +46,15 @@ std::vector<std::string> write_result(const Result& result, const std::string& f
   std::vector<std::string> lines;
   capture::Capture capture = result.capture;
   if (!folder.empty()) {
-    const fs::path from = fs::absolute(capture.root), flat = result.flat ? flat_file_of(capture) : fs::path();
-    capture.root = folder;
-    for (auto& frame : capture.frames)
-      if (frame.file.is_relative()) frame.file = (from / frame.file).lexically_normal();
-    for (auto& layer : capture.layers)
-      if (layer.file.is_relative() && layer.file != flat) layer.file = (from / layer.file).lexically_normal();
-    if (!capture.variants.empty()) {
-      capture.variants.clear();
+    capture = moved_to(result.capture, folder);
+    if (!result.capture.variants.empty())
       lines.push_back("renders stay with the old capture; likeness olat render makes new ones");
+    if (result.flat) {
+      const fs::path flat = flat_file_of(result.capture);
+      for (std::size_t i = 0; i < capture.layers.size(); ++i)
+        if (result.capture.layers[i].file == flat) capture.layers[i].file = flat;
+      image::write_exr(capture.root / flat, *result.flat);
     }
-    if (result.flat) image::write_exr(capture.root / flat, *result.flat);
     capture::write_capture(capture);
     lines.push_back("written: " + (fs::path(folder) / "capture.json").string());
     return lines;

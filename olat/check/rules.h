@@ -132,7 +132,7 @@ inline constexpr std::array kRules{
             "it may show other lights or cameras", "likeness olat render"},
     RuleRow{"shift", Severity::kWarning, Needs::kRenders, 0.25, "pixel", "Photos of a camera lie beside its renders",
             "a quarter of a pixel moves an edge of 4 stops by one stop",
-            "calibrate the camera again, or undistort its photos"},
+            "calibrate the camera again, or likeness olat calibrate --undistort"},
     RuleRow{"light_gain", Severity::kWarning, Needs::kRenders, 0.1, "stop",
             "A light is brighter or darker in the photos than the median light, against the renders",
             "a tenth of a stop can just be seen side by side", "likeness olat calibrate --gain light"},

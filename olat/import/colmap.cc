@@ -26,11 +26,18 @@ struct Model {
   int number;          // in binary files
   std::size_t params;  // how many
   std::size_t focals;  // 1: f, or 2: fx fy
+  capture::Lens lens = capture::Lens::kBrownConrady;
 };
 constexpr std::array kModels{
-    Model{"SIMPLE_PINHOLE", 0, 3, 1}, Model{"PINHOLE", 1, 4, 2}, Model{"SIMPLE_RADIAL", 2, 4, 1},
-    Model{"RADIAL", 3, 5, 1},         Model{"OPENCV", 4, 8, 2},  Model{"FULL_OPENCV", 6, 12, 2},
+    Model{"SIMPLE_PINHOLE", 0, 3, 1}, Model{"PINHOLE", 1, 4, 2},
+    Model{"SIMPLE_RADIAL", 2, 4, 1},  Model{"RADIAL", 3, 5, 1},
+    Model{"OPENCV", 4, 8, 2},         Model{"OPENCV_FISHEYE", 5, 8, 2, capture::Lens::kFisheye},
+    Model{"FULL_OPENCV", 6, 12, 2},
 };
+constexpr const char* kNotRead =
+    " is not read (SIMPLE_PINHOLE, PINHOLE, SIMPLE_RADIAL, RADIAL, OPENCV, FULL_OPENCV and OPENCV_FISHEYE are); "
+    "undistort "
+    "the pictures with COLMAP's image_undistorter, which makes PINHOLE";
 constexpr std::size_t kMostFileBytes = std::size_t{1} << 30;
 
 using Lenses = std::map<std::int64_t, Camera>;
@@ -49,11 +56,10 @@ Camera lens_of(const Model& model, double width, double height, const std::array
   if (!(fx > 0 && fy > 0)) throw InputError(place + ": the focal length is not above 0");
   const std::size_t at = model.focals;
   out.intrinsics = glm::dmat3(fx, 0, 0, 0, fy, 0, p[at], p[at + 1], 1);
-  for (std::size_t i = at + 2; i < model.params; ++i) {
-    if (i - at - 2 < 5) out.distortion[i - at - 2] = p[i];
-    else if (p[i] != 0) throw InputError(place + ": FULL_OPENCV with k4, k5 or k6; expected 0 there");
-  }
-  out.is_undistorted = out.distortion == std::array<double, 5>{};
+  for (std::size_t i = at + 2; i < model.params; ++i) out.distortion[i - at - 2] = p[i];
+  out.lens = model.lens;
+  // A fisheye whose numbers are all 0 is no pinhole.
+  out.is_undistorted = out.lens == capture::Lens::kBrownConrady && out.distortion == decltype(out.distortion){};
   return out;
 }
 
@@ -140,9 +146,7 @@ Lenses lenses_of_text(std::string_view text, const std::string& name) {
     const Model* model = nullptr;
     for (const Model& one : kModels)
       if (one.name == model_name) model = &one;
-    if (!model)
-      throw InputError(place + ": the lens model " + in_quotes(model_name) +
-                       " is not read; undistort the pictures with COLMAP's image_undistorter, which makes PINHOLE");
+    if (!model) throw InputError(place + ": the lens model " + in_quotes(model_name) + kNotRead);
     std::array<double, 12> params{};
     bool fits = words.number(width) && words.number(height);
     for (std::size_t i = 0; i < model->params; ++i) fits = fits && words.number(params[i]);
@@ -190,9 +194,7 @@ std::vector<PosedPicture> read_colmap_binary(std::string_view cameras, std::stri
     const Model* model = nullptr;
     for (const Model& one : kModels)
       if (one.number == number) model = &one;
-    if (!model)
-      throw InputError(place + ": the lens model " + std::to_string(number) +
-                       " is not read; undistort the pictures with COLMAP's image_undistorter, which makes PINHOLE");
+    if (!model) throw InputError(place + ": the lens model " + std::to_string(number) + kNotRead);
     const auto width = static_cast<double>(lens_bytes.take<std::uint64_t>());
     const auto height = static_cast<double>(lens_bytes.take<std::uint64_t>());
     std::array<double, 12> params{};

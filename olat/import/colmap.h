@@ -16,8 +16,8 @@ struct PosedPicture {
 };
 
 // Pictures in the order of the file; `meters` is the length of a unit of the reconstruction. SIMPLE_PINHOLE, PINHOLE,
-// SIMPLE_RADIAL, RADIAL, OPENCV, and FULL_OPENCV without k4 to k6. Throws files::InputError with the line or, in binary
-// files, the byte: another model (fisheyes among them), a camera that is not there, numbers that are not finite.
+// SIMPLE_RADIAL, RADIAL, OPENCV, FULL_OPENCV and OPENCV_FISHEYE. Throws files::InputError with the line or, in binary
+// files, the byte: another model, a camera that is not there, numbers that are not finite.
 std::vector<PosedPicture> read_colmap_text(std::string_view cameras, std::string_view images,
                                            const std::string& cameras_name, const std::string& images_name,
                                            double meters);

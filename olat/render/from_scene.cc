@@ -18,8 +18,10 @@ scene::Camera camera_of(const capture::Camera& camera) {
     throw files::UsageError("--scene: camera " + files::in_quotes(camera.id) + " " + text);
   };
   if (camera.is_orthographic) refuse("is orthographic, and scenes have pinholes only; --from-normals renders it");
-  if (!camera.is_undistorted) refuse("has photographs with lens distortion; undistort them first");
-  if (camera.intrinsics[1][0] != 0) refuse("has a skew; scenes have none");
+  if (!camera.is_undistorted)
+    refuse("has photographs with lens distortion; likeness olat calibrate CAPTURE --undistort --out NEW undoes it");
+  if (camera.intrinsics[1][0] != 0)
+    refuse("has a skew, and scenes have none; likeness olat calibrate CAPTURE --undistort --out NEW undoes it");
   scene::Camera out;
   out.name = camera.id;
   out.width = camera.width;

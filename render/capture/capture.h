@@ -22,12 +22,22 @@
 //             lists of this capture and are written nowhere.
 namespace likeness::capture {
 
+// How a lens bends the picture: what Camera::distortion holds, as OpenCV has it. x and y are those of a point of the camera,
+// divided by z.
+enum class Lens : unsigned char {
+  kBrownConrady,  // k1 k2 p1 p2 k3 k4 k5 k6: (1 + k1 r^2 + k2 r^4 + k3 r^6) / (1 + k4 r^2 + k5 r^4 + k6 r^6), and p1, p2 aside
+  kFisheye  // k1 k2 k3 k4: theta (1 + k1 theta^2 + ... + k4 theta^8) is the distance from the middle
+};
+inline constexpr std::array<std::string_view, 2> kLenses{"brown_conrady", "fisheye"};
+inline constexpr std::array<std::size_t, 2> kLensTerms{8, 4};
+
 struct Camera {
   std::string id, label;
-  int width = 0, height = 0;           // [pixel]
-  bool is_orthographic = false;        // focal lengths are then pixels a metre
-  glm::dmat3 intrinsics{1};            // K, acts on column vectors: u = fx x / z + cx, v = fy y / z + cy [pixel]
-  std::array<double, 5> distortion{};  // k1 k2 p1 p2 k3 of OpenCV; what the files hold unless is_undistorted
+  int width = 0, height = 0;     // [pixel]
+  bool is_orthographic = false;  // focal lengths are then pixels a metre
+  glm::dmat3 intrinsics{1};      // K, acts on column vectors: u = fx x / z + cx, v = fy y / z + cy [pixel]
+  Lens lens = Lens::kBrownConrady;
+  std::array<double, 8> distortion{};  // of the lens; what the files hold unless is_undistorted
   bool is_undistorted = true;
   glm::dmat4 world_from_camera{1};
   glm::dmat3 rec709_from_camera{1};  // what linear colors of frames with Primaries::kCamera are multiplied by

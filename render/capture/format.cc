@@ -25,6 +25,7 @@ constexpr One kPipelineOnly{&kPipelineSection}, kFlipOnly{&kFlipSection}, kVaria
 // clang-format off
 constexpr Key kType{.name = "type", .form = Form::kText, .required = true, .text = "what the file is"};
 constexpr Key kVersion{.name = "version", .form = Form::kWhole, .range = {kFormatVersion, kFormatVersion}, .required = true, .text = "of the format"};
+constexpr Key kVersionOfCameras{.name = "version", .form = Form::kWhole, .range = {kFormatVersion, kCamerasVersion}, .required = true, .text = "of the format"};
 
 constexpr std::array kPipelineKeys{
     Key{.name = "match_gain", .form = Form::kChoice, .initial = "none", .choices = kMatches, .text = "what a render is multiplied by before it is compared: nothing, or one fitted gain for the capture, each light, or each light and channel"},
@@ -56,7 +57,8 @@ constexpr std::array kCameraKeys{
     Key{.name = "focal_px", .form = Form::kPair, .range = {0, 1e9}, .above = true, .unit = "pixel", .required = true, .text = "fx and fy of K"},
     Key{.name = "center_px", .form = Form::kPair, .unit = "pixel", .text = "cx and cy of K, from the top left corner of the picture; default: its middle"},
     Key{.name = "skew", .form = Form::kNumber, .initial = "0", .unit = "pixel", .text = "K's entry between x and y"},
-    Key{.name = "distortion", .form = Form::kNumbers, .text = "k1 k2 p1 p2 k3 of OpenCV (fewer: the rest is 0)"},
+    Key{.name = "lens", .form = Form::kChoice, .initial = kLenses[0], .choices = kLenses, .text = "what distortion means; needs version 2 if it is a fisheye"},
+    Key{.name = "distortion", .form = Form::kNumbers, .text = "of OpenCV: k1 k2 p1 p2 k3 k4 k5 k6, or of a fisheye k1 k2 k3 k4 (fewer: the rest is 0; k4 k5 k6 of the first need version 2)"},
     Key{.name = "undistorted", .form = Form::kFlag, .initial = "true", .text = "whether the files are free of that distortion"},
     Key{.name = "world_from_camera", .form = Form::kMatrix, .required = true, .text = "camera to world, row by row; the camera looks along z with x to the right and y down"},
     Key{.name = "rec709_from_camera", .form = Form::kNumbers, .text = "nine numbers, row by row: linear colors of frames with camera primaries are multiplied by it; default: unchanged"},
@@ -112,7 +114,7 @@ constexpr std::array kCaptureKeys{
 };
 constexpr std::array kCamerasKeys{
     kType,
-    kVersion,
+    kVersionOfCameras,
     Key{.name = "cameras", .form = Form::kList, .required = true, .sections = kCameraOnly, .text = "in the order of the tool's keys"},
 };
 constexpr std::array kLightsKeys{

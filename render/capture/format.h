@@ -27,5 +27,7 @@ inline constexpr std::string_view kCaptureFile = "capture.json", kCamerasFile = 
 inline constexpr std::string_view kCaptureType = "olat capture", kCamerasType = "olat cameras",
                                   kLightsType = "olat lights", kFramesType = "olat frames";
 inline constexpr int kFormatVersion = 1;
+// Of cameras.json: 2 has `lens` and more than five numbers of `distortion`. A file that needs neither is written as 1.
+inline constexpr int kCamerasVersion = 2;
 
 }  // namespace likeness::capture

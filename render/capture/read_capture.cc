@@ -76,7 +76,24 @@ Enum word_of(const Fields& fields, std::string_view key) {
   return static_cast<Enum>(std::find(choices.begin(), choices.end(), fields.text(key)) - choices.begin());
 }
 
-Camera camera_at(const Fields& row, Places& places) {
+// What distortion means and its numbers; files of version 1 have neither fisheyes nor k4 k5 k6.
+void read_lens(const Fields& row, int version, Camera& out) {
+  constexpr std::size_t kTermsOfVersion1 = 5;
+  out.lens = word_of<Lens>(row, "lens");
+  if (version < kCamerasVersion && row.has("lens")) row.refuse("lens", " needs \"version\": 2 of cameras.json");
+  if (!row.has("distortion")) return;
+  const std::vector<double> terms = row.numbers("distortion");
+  const std::size_t most = kLensTerms[static_cast<std::size_t>(out.lens)];
+  if (terms.size() > most)
+    row.refuse("distortion", " has " + std::to_string(terms.size()) + " numbers; expected at most " +
+                                 (out.lens == Lens::kFisheye ? "4: k1 k2 k3 k4" : "8: k1 k2 p1 p2 k3 k4 k5 k6"));
+  if (version < kCamerasVersion && terms.size() > kTermsOfVersion1)
+    row.refuse("distortion",
+               " has " + std::to_string(terms.size()) + " numbers; more than 5 need \"version\": 2 of cameras.json");
+  std::copy(terms.begin(), terms.end(), out.distortion.begin());
+}
+
+Camera camera_at(const Fields& row, int version, Places& places) {
   Camera out;
   out.id = id_of(row, places, kMostCameras);
   out.label = row.text("label");
@@ -86,12 +103,7 @@ Camera camera_at(const Fields& row, Places& places) {
   const glm::dvec2 focal = row.pair("focal_px");
   const glm::dvec2 center = row.has("center_px") ? row.pair("center_px") : 0.5 * glm::dvec2(out.width, out.height);
   out.intrinsics = glm::dmat3(focal.x, 0, 0, row.number("skew"), focal.y, 0, center.x, center.y, 1);
-  if (row.has("distortion")) {
-    const std::vector<double> terms = row.numbers("distortion");
-    if (terms.size() > out.distortion.size())
-      row.refuse("distortion", " has " + std::to_string(terms.size()) + " numbers; expected at most 5: k1 k2 p1 p2 k3");
-    std::copy(terms.begin(), terms.end(), out.distortion.begin());
-  }
+  read_lens(row, version, out);
   out.is_undistorted = row.flag("undistorted");
   out.world_from_camera = row.rigid("world_from_camera");
   if (row.has("rec709_from_camera")) {
@@ -196,7 +208,7 @@ void read_frames(const Fields& file, const Ids& ids, Capture& capture) {
 void read_cameras(const Fields& file, Ids& ids, Capture& capture) {
   bool has_noise = false;
   for (const Fields& row : file.list("cameras")) {
-    capture.cameras.push_back(camera_at(row, ids.cameras));
+    capture.cameras.push_back(camera_at(row, file.whole("version"), ids.cameras));
     has_noise = has_noise || row.has("noise_floor");
     capture.noise_floor.push_back(row.vector("noise_floor"));
     if (const auto layers = row.object("layers"))

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -47,6 +48,18 @@ std::string whole_text(const Capture& capture) {
   return out.dump(1) + "\n";
 }
 
+// Numbers of the lens: none if it is straight, five where version 1 has room for them, or all.
+std::vector<double> terms_of(const Camera& camera) {
+  std::size_t count = kLensTerms[static_cast<std::size_t>(camera.lens)];
+  const auto first = camera.distortion.begin(), last = first + static_cast<std::ptrdiff_t>(count);
+  if (std::all_of(first, last, [](double term) { return term == 0; })) return {};
+  if (std::all_of(first + std::min<std::ptrdiff_t>(last - first, 5), last, [](double term) { return term == 0; }))
+    count = std::min<std::size_t>(count, 5);
+  return {first, first + static_cast<std::ptrdiff_t>(count)};
+}
+
+bool needs_version_2(const Camera& camera) { return camera.lens != Lens::kBrownConrady || terms_of(camera).size() > 5; }
+
 Json row_of(const Camera& camera) {
   Json row{{"id", camera.id}};
   if (!camera.label.empty()) row["label"] = camera.label;
@@ -57,7 +70,8 @@ Json row_of(const Camera& camera) {
   row["focal_px"] = {k[0][0], k[1][1]};
   row["center_px"] = {k[2][0], k[2][1]};
   if (k[1][0] != 0) row["skew"] = k[1][0];
-  if (camera.distortion != std::array<double, 5>{}) row["distortion"] = camera.distortion;
+  if (camera.lens != Lens::kBrownConrady) row["lens"] = kLenses[static_cast<std::size_t>(camera.lens)];
+  if (const auto terms = terms_of(camera); !terms.empty()) row["distortion"] = terms;
   if (!camera.is_undistorted) row["undistorted"] = false;
   Json rows = Json::array();
   for (int r = 0; r < 4; ++r) {
@@ -82,7 +96,9 @@ std::string cameras_text(const Capture& capture) {
   for (const LayerFile& one : capture.layers)
     if (one.camera < rows.size())
       rows[one.camera]["layers"][std::string(kLayers[static_cast<std::size_t>(one.layer)])] = one.file.string();
-  return with_rows(begin_of(kCamerasType), {{"cameras", rows}});
+  Json head = begin_of(kCamerasType);
+  if (std::any_of(capture.cameras.begin(), capture.cameras.end(), needs_version_2)) head["version"] = kCamerasVersion;
+  return with_rows(std::move(head), {{"cameras", rows}});
 }
 
 std::string lights_text(const Capture& capture) {

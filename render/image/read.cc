@@ -11,8 +11,8 @@
 #include <utility>
 
 #include "render/files/files.h"
+#include "render/files/module.h"
 #include "render/image/io_module.h"
-#include "render/image/load_io_module.h"
 #include "render/image/read_exr.h"
 #include "render/image/tone_curve.h"
 
@@ -115,7 +115,9 @@ void* place(void* state, int width, int height, int channels, int is_float, char
 }
 
 Texels decode_other(const char* format, std::string_view bytes, const std::string& name, const ReadOptions& options) {
-  static const auto kDecode = reinterpret_cast<likeness_decode_function>(io_function(kDecodeName));
+  static constexpr files::Module kIoModule{kIoModuleFile, "pictures other than EXR", "OpenImageIO"};
+  static const auto kDecode =
+      reinterpret_cast<likeness_decode_function>(files::module_function(kIoModule, kDecodeName));
   Place to{{}, options.most_texels};
   std::array<char, 512> error{};
   if (kDecode(format, bytes.data(), bytes.size(), place, &to, error.data(), error.size()) != 0) {

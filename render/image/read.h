@@ -20,11 +20,8 @@
 //                          level, the camera's matrix and its white balance as shot are taken from the file, 1 is a full
 //                          sensor; what is below black or outside those primaries is 0.
 //
-// A process that links OpenImageIO spends 0.28 CPU s before main, so it lives in the module likeness_image_io.so. That is
-// searched in, and nowhere else:
-//   1. the folder in the environment variable LIKENESS_MODULES, if that is set;
-//   2. lib/likeness in the program's folder and the three above it: PREFIX/lib/likeness of an installed
-//      PREFIX/bin/likeness, or that of the build folder; the module must have the program's owner, or root.
+// A process that links OpenImageIO spends 0.28 CPU s before main, so it lives in the module likeness_image_io.so, which
+// render/files/module.h says how to find.
 //
 // Values are those of the file: transfer curves are not undone, NaN and infinity are kept. All throw
 // files::InputError, one line that begins with the name, for what is absent, damaged or beyond the limits; memory is

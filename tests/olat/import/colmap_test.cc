@@ -51,8 +51,8 @@ TEST(Colmap, TextAndBinaryAreTheSameCameras) {
 }
 
 TEST(Colmap, WhatIsWrongIsNamedWithItsPlace) {
-  EXPECT_THAT(refusal("1 OPENCV_FISHEYE 1 1 1 1 1 1 0 0 0 0\n", ""),
-              HasSubstr("cameras.txt:1: the lens model \"OPENCV_FISHEYE\""));
+  EXPECT_THAT(refusal("1 THIN_PRISM_FISHEYE 1 1 1 1 1 1 0 0 0 0 0 0 0 0\n", ""),
+              HasSubstr("cameras.txt:1: the lens model \"THIN_PRISM_FISHEYE\" is not read (SIMPLE_PINHOLE"));
   EXPECT_THAT(refusal("1 PINHOLE 10 10 5 5 5\n", ""), HasSubstr("PINHOLE has a width, a height and 4 numbers"));
   EXPECT_THAT(refusal("1 PINHOLE 10 10 0 5 5 5\n", ""), HasSubstr("the focal length is not above 0"));
   EXPECT_THAT(refusal("1 PINHOLE 10 10 nan 5 5 5\n", ""), HasSubstr("is not finite"));
@@ -63,6 +63,24 @@ TEST(Colmap, WhatIsWrongIsNamedWithItsPlace) {
   EXPECT_THAT(refusal(camera, "1 1 0 0 0 0 0 0 7 a.png\n\n"), HasSubstr("camera 7 is not among the cameras"));
   EXPECT_THAT(refusal(camera, "1 0 0 0 0 0 0 0 1 a.png\n\n"), HasSubstr("the rotation is no quaternion"));
   EXPECT_THAT(refusal(camera, "1 1 0 0 0 0 0 0 1\n\n"), HasSubstr("a picture without a name"));
+}
+
+// The numbers of each model in the places of OpenCV's.
+TEST(Colmap, LensesKeepTheirNumbers) {
+  const auto lens = [](const std::string& row) {
+    return read_colmap_text("1 " + row + "\n", "1 1 0 0 0 0 0 0 1 a.png\n\n", "c", "i", 1)[0].camera;
+  };
+  using Terms = std::array<double, 8>;
+  EXPECT_EQ(lens("SIMPLE_RADIAL 8 8 9 4 4 .1").distortion, (Terms{.1}));
+  EXPECT_EQ(lens("RADIAL 8 8 9 4 4 .1 .2").distortion, (Terms{.1, .2}));
+  EXPECT_EQ(lens("OPENCV 8 8 9 9 4 4 .1 .2 .3 .4").distortion, (Terms{.1, .2, .3, .4}));
+  EXPECT_EQ(lens("FULL_OPENCV 8 8 9 9 4 4 .1 .2 .3 .4 .5 .6 .7 .8").distortion,
+            (Terms{.1, .2, .3, .4, .5, .6, .7, .8}));
+  const capture::Camera fisheye = lens("OPENCV_FISHEYE 8 8 9 9 4 4 .1 .2 .3 .4");
+  EXPECT_EQ(fisheye.distortion, (Terms{.1, .2, .3, .4}));
+  EXPECT_EQ(fisheye.lens, capture::Lens::kFisheye);
+  EXPECT_FALSE(lens("OPENCV_FISHEYE 8 8 9 9 4 4 0 0 0 0").is_undistorted);
+  EXPECT_TRUE(lens("OPENCV 8 8 9 9 4 4 0 0 0 0").is_undistorted);
 }
 
 TEST(Colmap, EveryTruncationOfABinaryFileIsRefused) {

@@ -58,6 +58,7 @@ TEST(CaptureFiles, EveryFieldIsReadAsItWasWritten) {
     EXPECT_EQ(g.height, w.height);
     EXPECT_EQ(g.is_orthographic, w.is_orthographic);
     EXPECT_EQ(g.intrinsics, w.intrinsics);
+    EXPECT_EQ(g.lens, w.lens);
     EXPECT_EQ(g.distortion, w.distortion);
     EXPECT_EQ(g.is_undistorted, w.is_undistorted);
     EXPECT_EQ(g.world_from_camera, w.world_from_camera);
@@ -177,6 +178,24 @@ TEST(CaptureFiles, PatternsTakeIdsAndNothingElse) {
   EXPECT_TRUE(layer_file(capture, 0, Layer::kNormal).empty());
 }
 
+// Version 1 holds what version 1 can hold; the rest of the lenses makes a version 2, and comes back as it was.
+TEST(CaptureFiles, OnlyLensesThatNeedVersion2AreWrittenSo) {
+  Capture capture = small_capture("/c");
+  EXPECT_NE(texts_of(capture).cameras.find("\"version\": 1"), std::string::npos);
+  EXPECT_NE(texts_of(capture).cameras.find("[0.1,-0.2,0.001,0.002,0.3]"), std::string::npos);
+  capture.cameras[0].distortion = {1, 2, 3, 4, 5, 6, 7, 8};
+  capture.cameras[1].lens = Lens::kFisheye;
+  capture.cameras[1].distortion = {0.1, 0.2, 0.3};
+  CaptureTexts texts = texts_of(capture);
+  EXPECT_NE(texts.cameras.find("\"version\": 2"), std::string::npos);
+  const Capture got = capture_of(texts, "/c");
+  EXPECT_EQ(got.cameras[0].distortion, capture.cameras[0].distortion);
+  EXPECT_EQ(got.cameras[1].distortion, capture.cameras[1].distortion);
+  EXPECT_EQ(got.cameras[1].lens, Lens::kFisheye);
+  texts.cameras.replace(texts.cameras.find("\"version\": 2"), 12, "\"version\": 1");
+  EXPECT_THROW(capture_of(texts, "/c"), files::InputError);
+}
+
 struct Wrong {
   std::string CaptureTexts::* file;
   std::string old, text, message;
@@ -196,6 +215,10 @@ TEST(CaptureFiles, WhatIsWrongIsNamedWithItsFileLineAndWayOut) {
       {kCapture, "renders/{variant}", "../{variant}", "leaves the folder by .."},
       {kCapture, "renders/{variant}", "/etc/{variant}", "is absolute; expected a file below the capture's folder"},
       {kCapture, "\"first_ev\": -2.0", "\"first_ev\": 2.0", "/flip/last_ev = 1 is below first_ev"},
+      {kCameras, "\"distortion\":[0.1", "\"distortion\":[9,0.1", "more than 5 need \"version\": 2 of cameras.json"},
+      {kCameras, "\"distortion\":[0.1", "\"distortion\":[9,9,9,9,0.1", "has 9 numbers; expected at most 8: k1"},
+      {kCameras, "\"distortion\"", "\"lens\":\"fisheye\",\"distortion\"",
+       "/cameras/0/lens needs \"version\": 2 of cameras.json"},
       {kCameras, "\"id\":\"side view\"", "\"id\":\"front\"",
        "/c/cameras.json:6: /cameras/1/id = \"front\" stands twice"},
       {kCameras, "\"id\":\"front\"", "\"id\":\"..\"", "cannot be an id"},
@@ -204,7 +227,7 @@ TEST(CaptureFiles, WhatIsWrongIsNamedWithItsFileLineAndWayOut) {
       {kCameras, "\"width\":4", "\"width\":4.5", "expected a whole number"},
       {kCameras, "\"width\":4", "\"with\":4", "did you mean \"width\"?"},
       {kCameras, "[5.0,6.0]", "[0,6.0]", "/focal_px/0 = 0 is outside (0, 1e+09]"},
-      {kCameras, "0.1,-0.2,", "0.1,-0.2,0,", "has 6 numbers; expected at most 5: k1 k2 p1 p2 k3"},
+      {kCameras, "0.1,-0.2,", "0.1,-0.2,0,", "has 6 numbers; more than 5 need"},
       {kCameras, "[[1.0,0.0", "[[2.0,0.0", "column 0 has the length 2; expected 1"},
       {kCameras, "[[1.0,0.0", "[[-1.0,0.0", "is not a turn (determinant -1; expected 1)"},
       {kCameras, "[2.0,-1.0,", "[2.0,", "has 8 numbers; expected 9, row by row"},

@@ -1,18 +1,18 @@
-#include "render/image/load_io_module.h"
+#include "render/files/module.h"
 
 #include <dlfcn.h>
 #include <sys/stat.h>
 
 #include <cstdlib>
 #include <filesystem>
+#include <map>
+#include <mutex>
 #include <stdexcept>
 #include <string>
 #include <system_error>
 #include <vector>
 
-#include "render/image/io_module.h"
-
-namespace likeness::image {
+namespace likeness::files {
 namespace {
 
 // Whether a module that was found near the program, not named by the user, is one that the program's own owner (or
@@ -38,15 +38,15 @@ std::vector<std::filesystem::path> module_folders() {
   return folders;
 }
 
-struct Module {
+struct Loaded {
   void* handle;
   std::filesystem::path file;
 };
 
-Module load() {
+Loaded load(const Module& module) {
   std::string tried;
   for (const std::filesystem::path& folder : module_folders()) {
-    const std::filesystem::path file = folder / kIoModuleFile;
+    const std::filesystem::path file = folder / module.file;
     std::error_code error;
     if (!std::filesystem::exists(file, error) || (folder != named_folder() && !has_owner_of_program(file))) {
       tried += (tried.empty() ? "" : ", ") + folder.string();
@@ -55,24 +55,28 @@ Module load() {
     void* const handle = dlopen(file.c_str(), RTLD_LAZY | RTLD_LOCAL);
     if (!handle) {
       const char* const cause = dlerror();
-      throw std::runtime_error(file.string() + ": the module for pictures other than EXR cannot be loaded: " +
-                               (cause ? cause : "no cause given") + "; is OpenImageIO installed?");
+      throw std::runtime_error(file.string() + ": the module for " + module.purpose + " cannot be loaded: " +
+                               (cause ? cause : "no cause given") + "; is " + module.library + " installed?");
     }
     return {handle, file};
   }
-  throw std::runtime_error(std::string(kIoModuleFile) + ", the module for pictures other than EXR, is not in any of: " +
+  throw std::runtime_error(std::string(module.file) + ", the module for " + module.purpose + ", is not in any of: " +
                            tried + "; install Likeness as a whole, or set LIKENESS_MODULES to the folder that has it");
 }
 
 }  // namespace
 
-void* io_function(const char* name) {
-  static const Module kModule = load();
-  void* const symbol = dlsym(kModule.handle, name);
+void* module_function(const Module& module, const char* name) {
+  static std::mutex mutex;
+  static std::map<std::string, Loaded> all;
+  const std::lock_guard lock(mutex);
+  auto at = all.find(module.file);
+  if (at == all.end()) at = all.emplace(module.file, load(module)).first;
+  void* const symbol = dlsym(at->second.handle, name);
   if (!symbol)
-    throw std::runtime_error(kModule.file.string() + ": has no function " + name +
+    throw std::runtime_error(at->second.file.string() + ": has no function " + name +
                              "; it belongs to another version of Likeness: install both from one build");
   return symbol;
 }
 
-}  // namespace likeness::image
+}  // namespace likeness::files
