@@ -4,6 +4,7 @@
 #include <random>
 #include <vector>
 
+#include "olat/tev/packet.h"
 #include "render/files/files.h"
 #include "tests/fit/measured_files.h"
 #include "tests/fuzz/feed.h"
@@ -24,6 +25,12 @@ std::string small_table() {
   return "\xef\xbb\xbf cos_i ,\"x\",color_g,ref_f_g\r\n\r\n0.5,+1e0,\"0.25\",nan\r\n1,2,0.5,0.5";
 }
 
+std::string small_packets() {
+  return olat_tev::bytes_of(olat_tev::Create{"a", 3, 2, {"R", "G", "B"}}) +
+         olat_tev::bytes_of(olat_tev::Update{"a", {"R", "B"}, 1, 0, 2, 2, {0, 1}, {2, 2}, {1, 2, 3, 4, 5, 6, 7, 8}}) +
+         olat_tev::bytes_of(olat_tev::Close{"b"});
+}
+
 std::vector<Seed> seeds() {
   return {{"merl", small_merl()},
           {"mbsdf", small_mbsdf()},
@@ -38,6 +45,9 @@ std::vector<Seed> seeds() {
           {"ies", scene::test::small_ies()},
           {"capture", capture::test::small_texts()},
           {"lights_csv", "# linear\nfile,lx,ly,lz,ir,ig,ib\na.png,0,0.6,0.8,1,2,3\n"},
+          {"tev", small_packets()},
+          {"state", "?camera=c0&light=012&mode=wipe&split=0.25&ev=-1.5&view=gt&gt_m=0.3&zebra=1&noise=0.001"},
+          {"state", R"({"metric": "smape", "ev": 2, "wedge": true, "x": "0.1", "channel": "luma"})"},
           {"lp", "2\na b.png 0 0 5\nb.png 3 0 4\n"},
           {"dome", R"({"lightConfiguration": "spherical", "positionsSphere": [{"x": 1, "y": 2, "z": 3}],
                        "ledAdjust": [{"r": 1, "g": 1, "b": 2}]})"},

@@ -11,6 +11,7 @@
 #include "tests/fit/measured_files.h"
 #include "tests/fuzz/feed_capture.h"
 #include "tests/fuzz/feed_exr.h"
+#include "tests/fuzz/feed_olat.h"
 
 namespace likeness::measured::test {
 namespace {
@@ -31,6 +32,7 @@ bool feed(std::string_view format, std::string_view bytes) {
   if (format == "exr") return image::test::feed_exr(bytes);
   for (const std::string_view of_captures : {"capture", "lights_csv", "lp", "dome", "colmap", "colmap_bin"})
     if (format == of_captures) return capture::test::feed_capture(format, bytes);
+  if (format == "tev" || format == "state") return olat_pair::test::feed_olat(format, bytes);
   for (const std::string_view of_scenes : {"scene", "glb", "ply", "obj", "ies"})
     if (format == of_scenes) return feed_scene(format, bytes);
   std::unique_ptr<Material> material;

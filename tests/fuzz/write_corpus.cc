@@ -1,6 +1,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "olat/tev/packet.h"
 #include "render/files/files.h"
 #include "tests/fit/measured_files.h"
 #include "tests/fuzz/feed_capture.h"
@@ -43,6 +44,13 @@ int main(int count, char** arguments) {
   files::write_whole(folder / "capture" / "small.txt", capture::test::small_texts());
   files::write_whole(folder / "lights_csv" / "small.csv",
                      "# linear\nfile,lx,ly,lz,ir,ig,ib\na.png,0,0.6,0.8,1,2,3\nb.png,1,0,0,1,1,1\n");
+  files::write_whole(
+      folder / "tev" / "packets.bin",
+      olat_tev::bytes_of(olat_tev::Create{"a", 3, 2, {"R", "G", "B"}}) +
+          olat_tev::bytes_of(olat_tev::Update{"a", {"R", "B"}, 1, 0, 2, 2, {0, 1}, {2, 2}, {1, 2, 3, 4, 5, 6, 7, 8}}) +
+          olat_tev::bytes_of(olat_tev::Close{"b"}));
+  files::write_whole(folder / "state" / "text.txt", "?camera=c0&mode=wipe&split=0.25&ev=-1.5&view=gt&gt_m=0.3&zebra=1");
+  files::write_whole(folder / "state" / "object.json", R"({"metric": "smape", "ev": 2, "wedge": true, "x": "0.1"})");
   files::write_whole(folder / "lp" / "small.lp", "2\na b.png 0 0 5\nb.png 3 0 4\n");
   files::write_whole(
       folder / "dome" / "small.dome",
