@@ -60,7 +60,7 @@ Answer refusal(int status, const std::string& text) {
 }  // namespace
 
 Answers::Answers(capture::Capture capture, const ViewOptions& options)
-    : capture_(std::move(capture)), frames_(capture_), cache_(options.cache_bytes) {
+    : capture_(std::move(capture)), frames_(capture_), received_(options.received), cache_(options.cache_bytes) {
   // Refuses a capture without cameras or lights.
   if (const std::size_t v = olat_pair::place_of(capture_, {}).variant; v != kAbsent) variant_ = v;
   if (options.with_scores) scorer_ = std::thread([this] { score_all(); });
@@ -100,7 +100,7 @@ Answer Answers::answer_or_throw(std::string_view path, const Parameters& paramet
   if (path == "/render") {
     Answer out;
     out.type = "image/png";
-    out.body = image::png_bytes(olat_pair::picture_of(state, olat_pair::load_pair(capture_, state)));
+    out.body = image::png_bytes(olat_pair::picture_of(state, pair_of(state)));
     return out;
   }
   return refusal(404, "there is nothing at " + files::in_quotes(path));
@@ -127,6 +127,7 @@ std::string Answers::capture_json() const {
     out["lights"].push_back({{"id", light.id}, {"label", light.label}, {"direction", direction_of(light)}});
   out["variants"] = Json::array();
   for (const capture::Variant& variant : capture_.variants) out["variants"].push_back(variant.id);
+  for (const auto& [variant, version] : received_variants()) out["variants"].push_back(variant);
   if (const std::size_t v = olat_pair::place_of(capture_, {}).variant; v != kAbsent)
     out["variant"] = capture_.variants[v].id;
   for (std::size_t c = 0; c < capture_.cameras.size(); ++c) {
@@ -142,7 +143,7 @@ std::string Answers::capture_json() const {
 }
 
 std::string Answers::frame_json(const State& state) const {
-  const Place place = olat_pair::place_of(capture_, state);
+  const Place place = place_of(state);
   Json out{{"camera", capture_.cameras[place.camera].id}, {"light", capture_.lights[place.light].id}};
   const std::size_t at = frames_.frame(place.camera, place.light);
   if (at != kAbsent) {
@@ -164,13 +165,15 @@ std::string Answers::frame_json(const State& state) const {
     const auto file = capture::render_file(capture_, capture_.variants[place.variant], place.camera, place.light);
     if (std::filesystem::exists(file)) out["render"] = file.lexically_relative(capture_.root).string();
   }
+  if (is_received(state))
+    if (const std::string name = received_name(state.variant, place); !name.empty()) out["render"] = "tev: " + name;
   return dumped(out);
 }
 
 Answer Answers::gain(const Parameters& parameters) {
   const State state = olat_pair::state_of(parameter(parameters, "state", ""));
   olat_pair::Pair pair;
-  const Place place = olat_pair::place_of(capture_, state);
+  const Place place = place_of(state);
   std::array<double, 3> gain{1, 1, 1};
   if (state.match != olat_pair::Match::kNone) {
     const Cache::Entry photo = picture("photo", state, 0), render = picture("render", state, 0);
@@ -178,7 +181,7 @@ Answer Answers::gain(const Parameters& parameters) {
       pair.photo = light_of(*photo);
       pair.flaws = flaws_of(*photo);
       pair.render = light_of(*render);
-      gain = olat_pair::gain_of(capture_, state, pair);
+      gain = gain_of(state, pair);
     }
   }
   double noise = state.noise > 0 ? state.noise : static_cast<double>(olat_pair::Pair::kUnknownNoise);
@@ -205,9 +208,14 @@ Answer Answers::pixels(const Parameters& parameters) {
 }
 
 Cache::Entry Answers::picture(std::string_view kind, const State& state, int level) {
-  const Place place = olat_pair::place_of(capture_, state);
+  const Place place = place_of(state);
   std::string key = std::string(kind) + " " + std::to_string(place.camera) + " " + std::to_string(place.light) + " ";
-  if (kind != "photo") key += std::to_string(place.variant) + " ";
+  if (kind != "photo" && is_received(state)) {
+    const std::string name = received_name(state.variant, place);
+    key += name + " " + std::to_string(received_->version(name).value_or(0)) + " ";
+  } else if (kind != "photo") {
+    key += std::to_string(place.variant) + " ";
+  }
   if (kind == "flip") key += state.metric + " " + olat_pair::pipeline_of(state) + " ";
   const auto key_of = [&](int k) { return key + std::to_string(k); };
   if (Cache::Entry at = cache_.kept(key_of(level))) return at;
@@ -226,7 +234,7 @@ std::shared_ptr<const capture::CameraLayers> Answers::layers_of(std::size_t came
 }
 
 HalfPicture Answers::read(std::string_view kind, const State& state) {
-  const Place place = olat_pair::place_of(capture_, state);
+  const Place place = place_of(state);
   if (kind == "photo") {
     const std::size_t at = frames_.frame(place.camera, place.light);
     if (at == kAbsent || !std::filesystem::exists(capture::photo_file(capture_, capture_.frames[at]))) return {};
@@ -234,12 +242,13 @@ HalfPicture Answers::read(std::string_view kind, const State& state) {
     return half_of(photo.light, photo.flaws);
   }
   if (kind == "render") {
+    if (is_received(state)) return half_of(received_render(state.variant, place), {});
     if (place.variant == kAbsent) return {};
     const capture::Variant& variant = capture_.variants[place.variant];
     if (!std::filesystem::exists(capture::render_file(capture_, variant, place.camera, place.light))) return {};
     return half_of(capture::read_render(capture_, variant, place.camera, place.light), {});
   }
-  const olat_pair::Pair pair = olat_pair::load_pair(capture_, state);
+  const olat_pair::Pair pair = pair_of(state);
   if (pair.photo.width == 0 || pair.render.width == 0) return {};
   return half_of_map(pair.width(), pair.height(), olat_pair::flip_map(state, pair));
 }

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -11,6 +13,7 @@
 #include <vector>
 
 #include "olat/pair/picture.h"
+#include "olat/tev/images.h"
 #include "olat/view/cache.h"
 #include "render/capture/capture.h"
 #include "render/capture/pixels.h"
@@ -31,6 +34,9 @@ struct Answer {
 struct ViewOptions {
   std::size_t cache_bytes = std::size_t{1} << 30;
   bool with_scores = true;  // compare every pair in the background
+  // What renderers sent by tev's protocol, or null: further variants of renders. VARIANT/CAMERA/LIGHT is the render of that
+  // pair, any other name a variant that stands for every pair of its size. Must outlive Answers.
+  const olat_tev::Images* received = nullptr;
 };
 
 //   /api/capture                                         cameras, lights, variants, which frames there are, pipeline
@@ -57,6 +63,15 @@ class Answers {
     std::vector<float> of_metric;  // NaN: not known yet, or nothing to compare
   };
 
+  // A state's variant may be a received one, which the capture does not have: then place.variant is kAbsent.
+  bool is_received(const olat_pair::State& state) const;
+  olat_pair::Place place_of(const olat_pair::State& state) const;
+  std::map<std::string, std::uint64_t> received_variants() const;  // with their last version
+  std::string received_name(const std::string& variant, const olat_pair::Place& place) const;  // "": there is none
+  image::Picture received_render(const std::string& variant, const olat_pair::Place& place) const;
+  olat_pair::Pair pair_of(const olat_pair::State& state) const;
+  std::array<double, 3> gain_of(olat_pair::State state, const olat_pair::Pair& pair) const;
+
   Answer answer_or_throw(std::string_view path, const Parameters& parameters);
   std::string capture_json() const;
   std::string frame_json(const olat_pair::State& state) const;
@@ -71,6 +86,7 @@ class Answers {
 
   const capture::Capture capture_;
   const capture::FrameTable frames_;
+  const olat_tev::Images* const received_;
   Cache cache_;
   std::mutex layers_mutex_;
   std::size_t layers_camera_ = capture::kAbsent;  // whose mask and flat field are kept: the last camera's

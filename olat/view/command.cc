@@ -4,13 +4,17 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
 #include "olat/pair/picture.h"
 #include "olat/pair/state.h"
+#include "olat/tev/listener.h"
+#include "olat/tev/send.h"
 #include "olat/view/report.h"
 #include "olat/view/server.h"
 #include "render/capture/files_of_capture.h"
@@ -26,7 +30,18 @@ struct Request {
   int port = 0;
   double cache_mb = 1024;
   bool no_scores = false, json = false;
+  std::optional<std::string> tev;  // address; "": the usual one
 };
+
+// --NAME with an address after it, or without: the usual one.
+void add_address(CLI::App& app, const std::string& name, std::optional<std::string>& to, std::string_view usual,
+                 const std::string& text) {
+  app.add_option_function<std::vector<std::string>>(
+         name, [&to](const std::vector<std::string>& words) { to = words.empty() ? "" : words[0]; },
+         text + "; without HOST:PORT " + std::string(usual))
+      ->type_name("[HOST:PORT]")
+      ->expected(0, 1);
+}
 
 // A state's text, or @FILE with it.
 olat_pair::State state_of(const std::string& text) {
@@ -39,13 +54,25 @@ int view(const Request& request) {
   capture::Capture capture = capture::read_capture(request.capture);
   olat_pair::place_of(capture, state);
   ViewOptions options;
+  olat_tev::Images received;
+  std::unique_ptr<olat_tev::Listener> tev;
+  if (request.tev) {
+    tev =
+        std::make_unique<olat_tev::Listener>(received, request.tev->empty() ? olat_tev::kListenAddress : *request.tev);
+    options.received = &received;
+  }
   options.cache_bytes = static_cast<std::size_t>(request.cache_mb * 1e6);
   options.with_scores = !request.no_scores;
   Answers answers(std::move(capture), options);
   Server server(answers, request.port);
   const std::string address = server.address(olat_pair::text_of(state));
-  if (request.json) std::cout << "{\"address\": \"" << address << "\", \"port\": " << server.port() << "}" << std::endl;
-  else std::cout << address << "\nOpen it in a browser; Ctrl-C ends." << std::endl;
+  if (request.json)
+    std::cout << "{\"address\": \"" << address << "\", \"port\": " << server.port()
+              << (tev ? ", \"tev_port\": " + std::to_string(tev->port()) : "") << "}" << std::endl;
+  else
+    std::cout << address << "\nOpen it in a browser; Ctrl-C ends."
+              << (tev ? "\nRenderers that know tev may send to 127.0.0.1:" + std::to_string(tev->port()) : "")
+              << std::endl;
 
   files::catch_interrupts();
   std::thread listener([&] { server.run(); });
@@ -55,12 +82,35 @@ int view(const Request& request) {
   return 0;
 }
 
+// SET/CAMERA/LIGHT: the sets beside one another in tev's list, and pairs again where Likeness receives them.
+int send_pair(const Request& request, const capture::Capture& capture, const olat_pair::State& state,
+              const olat_pair::Pair& pair) {
+  const olat_pair::Place place = olat_pair::place_of(capture, state);
+  const std::string at = "/" + capture.cameras[place.camera].id + "/" + capture.lights[place.light].id;
+  const std::string address(request.tev->empty() ? olat_tev::kTevAddress : *request.tev);
+  olat_tev::Sender sender(address);
+  std::string names;
+  const auto send = [&](const std::string& set, const image::Picture& light) {
+    if (light.width == 0) return;
+    sender.send(set + at, light);
+    names += std::string(names.empty() ? "" : ", ") + (request.json ? '"' + set + at + '"' : set + at);
+  };
+  send("photo", pair.photo);
+  image::Picture render = pair.render;
+  for (std::size_t i = 0; i < render.rgb.size(); ++i) render.rgb[i] *= pair.gain[i % 3];
+  if (place.variant != capture::kAbsent) send(capture.variants[place.variant].id, render);
+  if (request.json) std::cout << "{\"tev\": \"" << address << "\", \"sent\": [" << names << "]}\n";
+  else std::cout << "sent to " << address << ": " << names << "\n";
+  return 0;
+}
+
 int picture(const Request& request) {
   const olat_pair::State state = state_of(request.state);
   const capture::Capture capture = capture::read_capture(request.capture);
   const olat_pair::Pair pair = olat_pair::load_pair(capture, state);
   if (pair.width() == 0)
     throw files::InputError(request.capture + ": neither photo nor render of this camera and light");
+  if (request.tev) return send_pair(request, capture, state, pair);
   const image::DisplayPicture out = olat_pair::picture_of(state, pair);
   image::write_png(request.out, out);
   const std::string pipeline = olat_pair::pipeline_of(state);
@@ -114,6 +164,8 @@ void add_view(CLI::App& olat, int& exit_code) {
       ->check(CLI::Range(1.0, 1e6))
       ->capture_default_str();
   app->add_flag("--no-scores", request->no_scores, "Do not compare all pairs in the background");
+  add_address(*app, "--tev-listen", request->tev, olat_tev::kListenAddress,
+              "Show what renderers send by tev's protocol as further renders");
   app->add_flag("--json", request->json, "Print address and port as JSON");
   app->footer(
       "Photo and render pass one exposure, one view and one display curve, and are flipped, wiped, mixed or "
@@ -124,6 +176,7 @@ void add_view(CLI::App& olat, int& exit_code) {
       "\n"
       "  likeness olat view captures/cat\n"
       "  likeness olat view captures/cat --state 'light=012&mode=wipe&view=agx'\n"
+      "  likeness olat view captures/cat --tev-listen                    pbrt ... --display-server 127.0.0.1:14159\n"
       "\n"
       "Exit codes: 0 ended by Ctrl-C, 2 usage, 3 a file cannot be used. Manual: docs/olat_view.md");
   app->callback([request, &exit_code] { exit_code = view(*request); });
@@ -132,10 +185,13 @@ void add_view(CLI::App& olat, int& exit_code) {
   app->add_option("CAPTURE", request->capture, "Folder with capture.json")->required();
   app->add_option("--state", request->state, "A state's text, or @view.json");
   app->add_option("--out", request->out, "PNG to write")->capture_default_str();
+  add_address(*app, "--tev", request->tev, olat_tev::kTevAddress,
+              "Instead of a PNG, send light of photo and render (with its match gain) to a running tev");
   app->add_flag("--json", request->json, "Print what was written as JSON");
   app->footer(keys_of_states() +
               "\n"
               "  likeness olat picture captures/cat --state 'light=012&mode=difference&metric=stops' --out stops.png\n"
+              "  likeness olat picture captures/cat --state light=012 --tev\n"
               "\n"
               "Exit codes: 0 done, 2 usage, 3 a file cannot be used. Manual: docs/olat_view.md");
   app->callback([request, &exit_code] { exit_code = picture(*request); });

@@ -111,7 +111,7 @@ std::string Answers::scores_json(const Parameters& parameters) {
   state.variant = text("variant");
   if (!text("metric").empty()) state.metric = text("metric");
   const auto metric = metric::metric_of(state.metric);
-  const olat_pair::Place place = olat_pair::place_of(capture_, state);
+  const olat_pair::Place place = place_of(state);
   first_camera_ = place.camera;
   Json out{{"metric", state.metric},
            {"statistic", is_mean(metric) ? "mean" : "p95"},
@@ -134,6 +134,7 @@ std::string Answers::scores_json(const Parameters& parameters) {
     }
   }
   out["known"] = known;
+  if (received_) out["received"] = received_variants();
   return out.dump();
 }
 

@@ -85,6 +85,7 @@ export class Pictures {
     entry.waiting = false;
     try {
       const picture = await this.source.pixels(entry.kind, entry.where, entry.level);
+      this.drop(entry);
       Object.assign(entry, picture, { bytes: 2 * picture.data.byteLength });
       entry.texture = this.painter.texture(picture.width, picture.height, picture.data);
       this.bytes += entry.bytes;
@@ -102,12 +103,33 @@ export class Pictures {
     else this.changed(entry);
   }
 
+  drop(entry) {
+    if (!entry.texture) return;
+    this.painter.gl.deleteTexture(entry.texture);
+    this.bytes -= entry.bytes;
+    entry.texture = null;
+  }
+
+  // Another version of these renders has arrived: what is shown stays until the new one is here.
+  refresh(variant) {
+    this.gains.clear();
+    for (const [key, entry] of this.entries) {
+      if (entry.kind === 'photo' || new URLSearchParams(entry.where).get('variant') !== variant) continue;
+      if (entry.texture && entry.used === this.frame) {
+        entry.now = true;
+        this.start(entry);
+      } else if (entry.ready) {
+        this.drop(entry);
+        this.entries.delete(key);
+      }
+    }
+  }
+
   shrink(but) {
     for (const [key, entry] of this.entries) {
       if (this.bytes <= kMostBytes) return;
       if (entry === but || !entry.texture || entry.used === this.frame) continue;
-      this.painter.gl.deleteTexture(entry.texture);
-      this.bytes -= entry.bytes;
+      this.drop(entry);
       this.entries.delete(key);
     }
   }

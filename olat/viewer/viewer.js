@@ -33,6 +33,7 @@ class Viewer {
     const { state, faults } = stateOf(report ? location.hash.slice(1) : location.search);
     this.state = state;
     this.seen = new Set();
+    this.versions = {};
     this.lastSingle = 'photo';
     if (!location.search && !report) Object.assign(this.state, { ev: kept(capture.pipeline.ev), match: capture.pipeline.match });
     if (!location.search && fieldNamed('view').words.includes(capture.pipeline.view)) this.state.view = capture.pipeline.view;
@@ -167,8 +168,28 @@ class Viewer {
     }
     this.scoresOf = asked;
     this.showMaps();
-    const done = this.scores && this.scores.known >= this.scores.all;
+    this.takeReceived(this.scores?.received ?? {});
+    const done = this.scores && this.scores.known >= this.scores.all && !this.scores.received;
     if (!this.capture.partial) this.polling = setTimeout(() => this.pollScores(), done ? 10000 : 1000);
+  }
+
+  // Renders that tev's protocol brought, by their versions.
+  takeReceived(received) {
+    const select = byId('c_variant'), { variants } = this.capture;
+    for (const [id, version] of Object.entries(received)) {
+      if (!variants.includes(id)) {
+        variants.push(id);
+        select.append(new Option(id, id));
+        select.closest('label').hidden = variants.length < 2;
+        this.say(`received: ${id}; Shift Q shows it`);
+      }
+      if (this.versions[id] && this.versions[id] !== version) {
+        this.pictures.refresh(id);
+        this.redraw();
+      }
+      this.versions[id] = version;
+    }
+    if (!this.state.variant && variants.length) this.change({ variant: variants[0] });
   }
 
   // Tags over the picture: what each pane is, and the pipeline that it passed.
