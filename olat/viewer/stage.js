@@ -2,6 +2,8 @@
 import { metricNamed } from './tables.js';
 import { floatOfHalf, flawsAt, kMasked, luminanceAt } from './half.js';
 
+const kLate = 400;  // [ms]
+
 export class Stage {
   // `app`: state, change(part), pictures, painter.
   constructor(app, canvas, handle, cross) {
@@ -80,6 +82,13 @@ export class Stage {
       this.shownEntries[kind] = entry;
       pair[kind] = entry.texture ?? null;
       pair[kind + '_width'] = entry.width;
+    }
+    // While a pair is on its way the last one stays, for a moment: grey between two pictures would be a flash, and a frame.
+    clearTimeout(this.late);
+    if (!complete && !Object.keys(this.shownEntries).length && performance.now() - app.wentAt < kLate) {
+      this.pair = pair;
+      this.late = setTimeout(() => app.redraw(), kLate);
+      return false;
     }
     const gain = pictures.gain(state);
     if (gain) Object.assign(pair, { gain: gain.gain, noise: gain.noise });

@@ -96,7 +96,10 @@ class Viewer {
     if (['photo', 'render'].includes(this.state.mode)) this.lastSingle = this.state.mode;
     this.findPlace();
     this.seen.add(this.state.camera + '/' + this.state.light);
-    if (['camera', 'light', 'variant'].some(name => name in part)) this.stage?.ask();
+    if (['camera', 'light', 'variant'].some(name => name in part)) {
+      this.wentAt = performance.now();
+      this.stage.ask();
+    }
     this.redraw();
     this.showControls();
     this.announce(part);
