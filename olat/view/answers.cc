@@ -50,6 +50,17 @@ Json direction_of(const capture::Light& light) {
   return {to.x / length, to.y / length, to.z / length};
 }
 
+class Turn {
+ public:
+  explicit Turn(std::counting_semaphore<>& of) : of_(of) { of_.acquire(); }
+  ~Turn() { of_.release(); }
+  Turn(const Turn&) = delete;
+  Turn& operator=(const Turn&) = delete;
+
+ private:
+  std::counting_semaphore<>& of_;
+};
+
 Answer refusal(int status, const std::string& text) {
   Answer out;
   out.status = status;
@@ -98,6 +109,7 @@ Answer Answers::answer_or_throw(std::string_view path, const Parameters& paramet
   if (path == "/api/gain") return gain(parameters);
   if (path == "/api/pixels") return pixels(parameters);
   if (path == "/render") {
+    const Turn turn(large_);
     Answer out;
     out.type = "image/png";
     out.body = image::png_bytes(olat_pair::picture_of(state, pair_of(state)));
@@ -176,6 +188,7 @@ Answer Answers::gain(const Parameters& parameters) {
   const Place place = place_of(state);
   std::array<double, 3> gain{1, 1, 1};
   if (state.match != olat_pair::Match::kNone) {
+    const Turn turn(large_);
     const Cache::Entry photo = picture("photo", state, 0), render = picture("render", state, 0);
     if (!photo->rgba.empty() && !render->rgba.empty()) {
       pair.photo = light_of(*photo);

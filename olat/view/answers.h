@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <semaphore>
 #include <string>
 #include <string_view>
 #include <thread>
@@ -88,6 +89,7 @@ class Answers {
   const capture::FrameTable frames_;
   const olat_tev::Images* const received_;
   Cache cache_;
+  std::counting_semaphore<> large_{2};  // answers in the making that hold pictures as floats
   std::mutex layers_mutex_;
   std::size_t layers_camera_ = capture::kAbsent;  // whose mask and flat field are kept: the last camera's
   std::shared_ptr<const capture::CameraLayers> layers_;

@@ -16,7 +16,7 @@ namespace likeness::olat_view {
 
 class Server {
  public:
-  static constexpr int kThreads = 64;
+  static constexpr int kThreads = 256;    // a client that says its request slowly holds one
   static constexpr int kMostBody = 1024;  // bytes of a request's body, which nobody reads
   static constexpr int kPatience = 5;     // seconds that a client may keep silent
 
