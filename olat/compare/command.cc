@@ -26,10 +26,10 @@ struct CommandLine {
 };
 
 template <std::size_t N>
-std::size_t choice(const std::array<MatchRow, N>& rows, const std::string& id, const char* option) {
+std::size_t choice(const std::array<Choice, N>& rows, const std::string& id, const char* option) {
   std::array<std::string_view, N> names{};
   for (std::size_t k = 0; k < N; ++k) {
-    names[k] = rows[k].id;
+    names[k] = rows[k].word;
     if (id == names[k]) return k;
   }
   const std::string near = files::nearest_name(id, names.data(), N);
@@ -105,7 +105,7 @@ std::string footer() {
   text += "Statistics, over the pixels inside the mask that are not clipped\n";
   for (const metric::StatisticRow& row : metric::kStatistics) text += padded(row.id) + std::string(row.text) + "\n";
   text += "Match gain: what a render is multiplied by\n";
-  for (const MatchRow& row : kMatches) text += padded(row.id) + std::string(row.text) + "\n";
+  for (const Choice& row : kMatches) text += padded(row.word) + std::string(row.text) + "\n";
   return text + R"(
 Examples
   likeness olat compare capture                                  totals and the worst pairs

@@ -313,8 +313,8 @@ Comparison run_compare(const Capture& capture, const Options& options) {
   Work work{capture, options, variant, shower, out.noise_floor, capture_gain_ev, {}, {}, cache};
   if (!options.cache.empty()) {
     work.settings = "1 " + out.view + " " + files::number_text(out.ev) + " " +
-                    std::string(kMatches[static_cast<std::size_t>(out.match)].id) + " " +
-                    std::string(kWeights[static_cast<std::size_t>(out.weight)].id) + " " +
+                    std::string(kMatches[static_cast<std::size_t>(out.match)].word) + " " +
+                    std::string(kWeights[static_cast<std::size_t>(out.weight)].word) + " " +
                     files::number_text(capture.flip_first_ev) + " " + files::number_text(capture.flip_last_ev);
     for (std::size_t camera = 0; camera < capture.cameras.size(); ++camera) {
       std::string& text = work.layer_key.emplace_back();

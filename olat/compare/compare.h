@@ -8,28 +8,21 @@
 #include <vector>
 
 #include "olat/metric/metric.h"
+#include "olat/pair/state.h"
 #include "render/capture/capture.h"
 
 // Every metric of every pair of a capture: photo and render of one camera under one light.
 namespace likeness::olat_compare {
 
-// What a render is multiplied by before it is compared.
-enum class Match : unsigned char { kNone, kCapture, kLight, kChannel };
-struct MatchRow {
-  std::string_view id, text;
-};
-inline constexpr std::array kMatches{
-    MatchRow{"none", "nothing: an error of intensity stays visible"},
-    MatchRow{"capture", "one gain: the median of at most 16 pairs"},
-    MatchRow{"light", "one gain for each pair"},
-    MatchRow{"channel", "one gain for each pair and channel"},
-};
+using olat_pair::Choice;
+using olat_pair::kMatches;  // what a render is multiplied by before it is compared
+using olat_pair::Match;
 
 // What a pixel counts, inside the mask and where the photo is neither clipped nor NaN.
 enum class Weight : unsigned char { kMask, kCosine };
 inline constexpr std::array kWeights{
-    MatchRow{"mask", "1"},
-    MatchRow{"cosine", "max(0, N.L): needs normals and directions of lights; grazing light counts less"},
+    Choice{"mask", "1"},
+    Choice{"cosine", "max(0, N.L): needs normals and directions of lights; grazing light counts less"},
 };
 
 struct Options {

@@ -115,8 +115,8 @@ std::string table_of(const Comparison& comparison, const capture::Capture& captu
     counts += (counts.empty() ? "" : ", ") + std::to_string(count) + " " +
               std::string(kStates[static_cast<std::size_t>(state)]);
   out += (counts.empty() ? "no pairs" : counts) + "; variant " + comparison.variant + ", match gain " +
-         std::string(kMatches[static_cast<std::size_t>(comparison.match)].id) + ", weight " +
-         std::string(kWeights[static_cast<std::size_t>(comparison.weight)].id) + ", view " + comparison.view +
+         std::string(kMatches[static_cast<std::size_t>(comparison.match)].word) + ", weight " +
+         std::string(kWeights[static_cast<std::size_t>(comparison.weight)].word) + ", view " + comparison.view +
          ", exposure " + four_digits(comparison.ev) + " stops, HDR-FLIP from " + four_digits(capture.flip_first_ev) +
          " to " + four_digits(capture.flip_last_ev) + " stops\n";
   for (std::size_t camera = 0; camera < comparison.noise_floor.size() && camera < 3; ++camera) {
@@ -198,8 +198,8 @@ std::string json_of(const Comparison& comparison, const capture::Capture& captur
                  {"version", 1},
                  {"capture", capture.name},
                  {"variant", comparison.variant},
-                 {"match_gain", kMatches[static_cast<std::size_t>(comparison.match)].id},
-                 {"weight", kWeights[static_cast<std::size_t>(comparison.weight)].id},
+                 {"match_gain", kMatches[static_cast<std::size_t>(comparison.match)].word},
+                 {"weight", kWeights[static_cast<std::size_t>(comparison.weight)].word},
                  {"view", comparison.view},
                  {"ev", comparison.ev},
                  {"flip", {{"first_ev", capture.flip_first_ev}, {"last_ev", capture.flip_last_ev}}},

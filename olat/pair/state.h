@@ -31,7 +31,7 @@ inline constexpr std::array kModes{
 enum class Match : unsigned char { kNone, kCapture, kLight, kChannel };
 inline constexpr std::array kMatches{
     Choice{"none", "the render as it is: an error of intensity stays visible"},
-    Choice{"capture", "one gain for the capture"},
+    Choice{"capture", "one gain for the capture: the median of at most 16 pairs"},
     Choice{"light", "one gain for each camera and light"},
     Choice{"channel", "one gain for each camera, light and color channel"},
 };
