@@ -5,39 +5,20 @@
 #include <numbers>
 
 #include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
 #include <tbb/parallel_for.h>
 
 #include "brdf/about_normal.h"
 #include "render/capture/pixels.h"
 #include "render/files/files.h"
-#include "render/image/read.h"
 
 namespace likeness::olat_render {
 namespace {
 
 using capture::Camera;
-using capture::NearLight;
 using image::Picture;
 
 constexpr double kLeastCosine = 0.05;  // of a light that counts: 3 degrees above the surface
 constexpr double kFarOff = 0.5;        // of the fit's value: a highlight or a shadow
-
-// From the surface towards the camera.
-glm::dvec3 to_view_of(const Camera& camera, int x, int y) {
-  const glm::dmat3 turn(camera.world_from_camera);
-  if (camera.is_orthographic) return -turn[2];
-  const glm::dvec3 way = glm::inverse(camera.intrinsics) * glm::dvec3(x + 0.5, y + 0.5, 1);
-  return -glm::normalize(turn * way);
-}
-
-// Of an orthographic camera without positions: the plane through the world's origin that faces it.
-glm::dvec3 on_plane(const Camera& camera, int x, int y) {
-  const glm::dvec3 at = glm::inverse(camera.intrinsics) * glm::dvec3(x + 0.5, y + 0.5, 1);
-  const glm::dmat3 turn(camera.world_from_camera);
-  const glm::dvec3 from = glm::dvec3(camera.world_from_camera[3]) + turn * glm::dvec3(at.x, at.y, 0);
-  return from - turn[2] * glm::dot(from, turn[2]);
-}
 
 }  // namespace
 
@@ -48,19 +29,8 @@ NormalRenderer::NormalRenderer(const capture::Capture& capture, std::size_t came
       material_(material),
       frames_(capture),
       normals_(capture::read_normals(capture, camera)),
-      colors_(normals_.width, normals_.height) {
-  const bool has_near = std::any_of(capture.lights.begin(), capture.lights.end(), [](const capture::Light& light) {
-    return std::holds_alternative<NearLight>(light.place);
-  });
-  const auto file = layer_file(capture, camera, capture::Layer::kPosition);
-  if (has_near && !file.empty()) positions_ = image::read_picture(file);
-  if (has_near && file.empty() && !capture.cameras[camera].is_orthographic)
-    throw files::UsageError(
-        "--from-normals: near lights need to know where the surface is; add the layer position of camera " +
-        files::in_quotes(capture.cameras[camera].id) + " to cameras.json");
-  if (positions_.width > 0 && (positions_.width != normals_.width || positions_.height != normals_.height))
-    throw files::InputError(file.string() + ": has another size than the normals");
-}
+      positions_(capture, camera, "--from-normals"),
+      colors_(normals_.width, normals_.height) {}
 
 void NormalRenderer::begin_round() {
   photo_shading_.assign(normals_.rgb.size(), 0);
@@ -69,9 +39,7 @@ void NormalRenderer::begin_round() {
 
 Picture NormalRenderer::shading(std::size_t light) const {
   const capture::Light& source = capture_.lights[light];
-  const auto* distant = std::get_if<capture::DistantLight>(&source.place);
-  const auto* near = std::get_if<NearLight>(&source.place);
-  if (!distant && !near)
+  if (!capture::has_place(source))
     throw files::UsageError("--from-normals: light " + files::in_quotes(source.id) +
                             " has no place; give it a direction or a position in lights.json");
   const Camera& camera = capture_.cameras[camera_];
@@ -81,26 +49,16 @@ Picture NormalRenderer::shading(std::size_t light) const {
       const auto stored = normals_.at(x, y);
       const glm::dvec3 n(stored[0], stored[1], stored[2]);
       if (n == glm::dvec3(0)) continue;
-      glm::dvec3 l = distant ? distant->to_light : glm::dvec3(0);
-      double falloff = 1;
-      if (near) {
-        glm::dvec3 at = on_plane(camera, x, y);
-        if (positions_.width > 0) at = {positions_.at(x, y)[0], positions_.at(x, y)[1], positions_.at(x, y)[2]};
-        const glm::dvec3 way = near->position - at;
-        const double distance = glm::length(way);
-        if (!(distance > 1e-6)) continue;
-        l = way / distance;
-        falloff = 1 / (distance * distance);
-      }
+      const auto [l, irradiance] = capture::shine_of(source, positions_.at(x, y));
       const double cos_i = glm::dot(n, l);
-      if (!(cos_i > 0)) continue;
-      const glm::dvec3 v = to_view_of(camera, x, y);
+      if (!(cos_i > 0) || irradiance == 0) continue;
+      const glm::dvec3 v = capture::to_view_of(camera, x, y);
       brdf::Rgb<double> f(std::numbers::inv_pi);
       if (material_) f = brdf::eval_about(*material_, {n.x, n.y, n.z}, {l.x, l.y, l.z}, {v.x, v.y, v.z});
       const auto pixel = out.at(x, y);
-      pixel[0] = static_cast<float>(f.r * cos_i * falloff);
-      pixel[1] = static_cast<float>(f.g * cos_i * falloff);
-      pixel[2] = static_cast<float>(f.b * cos_i * falloff);
+      pixel[0] = static_cast<float>(f.r * cos_i * irradiance);
+      pixel[1] = static_cast<float>(f.g * cos_i * irradiance);
+      pixel[2] = static_cast<float>(f.b * cos_i * irradiance);
     }
   });
   return out;

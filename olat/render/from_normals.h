@@ -6,6 +6,7 @@
 
 #include "brdf/any_brdf.h"
 #include "render/capture/capture.h"
+#include "render/capture/sight.h"
 #include "render/image/picture.h"
 
 // Renders of a capture that has normals and no scene: each pixel is a piece of surface with the normal of the camera's
@@ -55,7 +56,9 @@ class NormalRenderer {
   std::size_t camera_;
   std::optional<brdf::AnyBrdf> material_;
   capture::FrameTable frames_;
-  image::Picture normals_, positions_, colors_;
+  image::Picture normals_;
+  capture::Positions positions_;
+  image::Picture colors_;
   std::vector<double> photo_shading_, shading_shading_;  // sums of p s and s s, three a pixel
 };
 
