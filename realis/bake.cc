@@ -1,0 +1,148 @@
+#include "realis/bake.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <random>
+
+#include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+#include "realis/solve.h"
+#include "render/files/interrupt.h"
+
+namespace likeness::realis {
+namespace {
+
+constexpr std::size_t kTexelsToChooseBy = 512;
+
+double luminance(const std::array<float, 3>& c) {
+  return 0.2126 * static_cast<double>(c[0]) + 0.7152 * static_cast<double>(c[1]) + 0.0722 * static_cast<double>(c[2]);
+}
+
+// photo - render; 0 where the photo says nothing.
+double error_of(const Subject& s, std::size_t sample, Channels channels, std::size_t channel) {
+  if (!(s.weight[sample] > 0)) return 0;
+  if (channels == Channels::kLuminance) return luminance(s.photo[sample]) - luminance(s.render[sample]);
+  return static_cast<double>(s.photo[sample][channel]) - static_cast<double>(s.render[sample][channel]);
+}
+
+// Texels that are seen by every light, in a random order that the seed decides; of all if there are none.
+Sampled sampled_of(const Subject& s, std::uint64_t seed) {
+  Sampled out;
+  out.to_lights = s.to_lights;
+  std::vector<std::size_t> order(s.texels());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::mt19937_64 random(seed);
+  const std::size_t lights = s.lights.size();
+  std::size_t taken = 0;
+  for (std::size_t i = 0; i < order.size() && taken < kTexelsToChooseBy; ++i) {
+    std::swap(order[i], order[i + random() % (order.size() - i)]);
+    const std::size_t first = s.samples_of(order[i]);
+    const bool is_seen =
+        std::all_of(s.weight.begin() + static_cast<std::ptrdiff_t>(first),
+                    s.weight.begin() + static_cast<std::ptrdiff_t>(first + lights), [](float w) { return w > 0; });
+    if (!is_seen) continue;
+    for (std::size_t k = 0; k < lights; ++k)
+      out.residuals.push_back(static_cast<float>(error_of(s, first + k, Channels::kLuminance, 0)));
+    ++taken;
+  }
+  return out;
+}
+
+// The lobes with the largest parts in what a texel adds: |c| in all channels.
+void keep_largest(std::span<const double> coefficients, std::size_t lobes, std::size_t kept,
+                  std::vector<std::size_t>& chosen) {
+  const auto size = [&](std::size_t k) {
+    double sum = 0;
+    for (std::size_t c = k; c < coefficients.size(); c += lobes) sum += std::abs(coefficients[c]);
+    return sum;
+  };
+  chosen.resize(lobes);
+  std::iota(chosen.begin(), chosen.end(), std::size_t{0});
+  std::partial_sort(chosen.begin(), chosen.begin() + static_cast<std::ptrdiff_t>(kept), chosen.end(),
+                    [&](std::size_t a, std::size_t b) {
+                      const double x = size(a), y = size(b);
+                      return x != y ? x > y : a < b;
+                    });
+  chosen.resize(kept);
+}
+
+}  // namespace
+
+Bake bake(const Subject& subject, const BakeOptions& options, const GoesOn& goes_on) {
+  Bake out;
+  out.channels = options.channels, out.floor = options.floor;
+  if (options.is_exact) {
+    out.basis = exact_basis(subject.to_lights);
+  } else {
+    const Sampled sampled = sampled_of(subject, options.seed);
+    if (options.lobes > 0) {
+      out.ladder = {choose_basis(sampled, options.lobes)};
+    } else {
+      out.ladder = ladder(sampled, options.most_lobes, [&](double share) {
+        if (!goes_on(share, "choosing lobes")) throw files::Interrupted();
+      });
+      out.chosen = chosen_of(out.ladder);
+    }
+    if (!out.ladder.empty()) out.basis = out.ladder[out.chosen].basis;
+  }
+  const std::size_t lobes = out.basis.lobes.size(), lights = subject.lights.size(), channels = out.channel_count();
+  out.kept = options.dominant > 0 ? std::min(options.dominant, lobes) : lobes;
+  out.coefficients.assign(subject.texels() * channels * lobes, 0.0f);
+  if (lobes == 0) return out;
+
+  struct Work {
+    Solver solver;
+    std::vector<double> weights, residuals, coefficients;
+    std::vector<std::size_t> chosen;
+  };
+  tbb::enumerable_thread_specific<Work> works([&] {
+    Work w{Solver(out.basis),
+           std::vector<double>(lights),
+           std::vector<double>(channels * lights),
+           std::vector<double>(channels * lobes),
+           {}};
+    w.solver.aim(subject.to_lights);
+    return w;
+  });
+  constexpr std::size_t kAtOnce = 4096;
+  for (std::size_t begin = 0; begin < subject.texels(); begin += kAtOnce) {
+    if (!goes_on(static_cast<double>(begin) / static_cast<double>(subject.texels()), "baking"))
+      throw files::Interrupted();
+    tbb::parallel_for(begin, std::min(begin + kAtOnce, subject.texels()), [&](std::size_t texel) {
+      Work& w = works.local();
+      const std::size_t first = subject.samples_of(texel);
+      for (std::size_t i = 0; i < lights; ++i) {
+        const double cosine = std::max(static_cast<double>(subject.cosine[first + i]), options.floor);
+        w.weights[i] = static_cast<double>(subject.weight[first + i]) * cosine * cosine;
+        for (std::size_t c = 0; c < channels; ++c)
+          w.residuals[c * lights + i] = error_of(subject, first + i, options.channels, c) / cosine;
+      }
+      w.solver.solve(w.weights, w.residuals, w.coefficients);
+      if (out.kept < lobes) {
+        keep_largest(w.coefficients, lobes, out.kept, w.chosen);
+        w.solver.solve_with(w.chosen, w.weights, w.residuals, w.coefficients);
+      }
+      float* to = out.coefficients.data() + texel * channels * lobes;
+      for (std::size_t k = 0; k < channels * lobes; ++k) to[k] = static_cast<float>(w.coefficients[k]);
+    });
+  }
+  return out;
+}
+
+Residual::Residual(const Bake& bake, const glm::dvec3& to_light)
+    : bake_(bake), values_(values(bake.basis.lobes, std::span(&to_light, 1))) {}
+
+std::array<double, 3> Residual::at(std::size_t texel, double cosine) const {
+  const std::size_t lobes = values_.size(), channels = bake_.channel_count();
+  std::array<double, 3> out{};
+  const float* c = bake_.coefficients.data() + texel * channels * lobes;
+  for (std::size_t k = 0; k < channels; ++k)
+    out[k] = std::inner_product(values_.begin(), values_.end(), c + k * lobes, 0.0) * std::max(cosine, bake_.floor);
+  if (channels == 1) out[1] = out[2] = out[0];
+  return out;
+}
+
+}  // namespace likeness::realis

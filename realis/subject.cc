@@ -1,0 +1,84 @@
+#include "realis/subject.h"
+
+#include <algorithm>
+#include <string>
+#include <variant>
+
+#include <glm/geometric.hpp>
+#include <tbb/parallel_for.h>
+
+#include "render/capture/pixels.h"
+#include "render/files/files.h"
+#include "render/files/interrupt.h"
+
+namespace likeness::realis {
+namespace {
+
+// Towards a light, from the origin: where captures have their subject.
+bool is_placed(const capture::Light& light, glm::dvec3& to_light) {
+  if (const auto* distant = std::get_if<capture::DistantLight>(&light.place)) to_light = distant->to_light;
+  else if (const auto* near = std::get_if<capture::NearLight>(&light.place)) to_light = near->position;
+  else return false;
+  const double length = glm::length(to_light);
+  if (!(length > 0)) return false;
+  to_light /= length;
+  return true;
+}
+
+}  // namespace
+
+Subject read_subject(const capture::Capture& capture, std::size_t camera, const Renderer& render,
+                     std::span<const std::size_t> leave_out, const GoesOn& goes_on) {
+  const capture::FrameTable frames(capture);
+  const capture::CameraLayers layers = capture::read_camera_layers(capture, camera);
+  Subject s;
+  s.camera = camera;
+  s.width = capture.cameras[camera].width, s.height = capture.cameras[camera].height;
+  for (std::size_t light = 0; light < capture.lights.size(); ++light) {
+    glm::dvec3 to_light;
+    if (frames.frame(camera, light) == capture::kAbsent || !is_placed(capture.lights[light], to_light)) continue;
+    if (std::find(leave_out.begin(), leave_out.end(), light) != leave_out.end()) continue;
+    s.lights.push_back(light), s.to_lights.push_back(to_light);
+  }
+  if (s.lights.empty())
+    throw files::UsageError(
+        "camera " + files::in_quotes(capture.cameras[camera].id) +
+        " has no photograph under a light whose direction is known; `likeness olat calibrate` finds "
+        "directions, `likeness olat check` says what is missing");
+  for (std::size_t i = 0; i < layers.mask.size(); ++i)
+    if (layers.mask[i] != 0) s.pixels.push_back(static_cast<std::uint32_t>(i));
+
+  const std::size_t lights = s.lights.size(), samples = s.texels() * lights;
+  s.photo.resize(samples), s.render.resize(samples), s.cosine.assign(samples, 1.0f), s.weight.assign(samples, 1.0f);
+  // A few photographs at a time: each is read, and strewn over the texels.
+  constexpr std::size_t kAtOnce = 8;
+  for (std::size_t begin = 0; begin < lights; begin += kAtOnce) {
+    if (!goes_on(static_cast<double>(begin) / static_cast<double>(lights), "reading photographs"))
+      throw files::Interrupted();
+    const std::size_t end = std::min(begin + kAtOnce, lights);
+    std::vector<capture::Photo> photos(end - begin);
+    std::vector<Rendered> renders(end - begin);
+    tbb::parallel_for(begin, end, [&](std::size_t i) {
+      photos[i - begin] = capture::read_photo(capture, frames.frame(camera, s.lights[i]), layers);
+      renders[i - begin] = render(s.lights[i]);
+    });
+    tbb::parallel_for(std::size_t{0}, s.texels(), [&](std::size_t texel) {
+      const std::size_t pixel = s.pixels[texel];
+      for (std::size_t i = begin; i < end; ++i) {
+        const std::size_t sample = s.samples_of(texel) + i;
+        const capture::Photo& photo = photos[i - begin];
+        const Rendered& rendered = renders[i - begin];
+        for (std::size_t c = 0; c < 3; ++c) {
+          s.photo[sample][c] = photo.light.rgb[3 * pixel + c];
+          s.render[sample][c] = rendered.light.rgb[3 * pixel + c];
+        }
+        if (!rendered.cosine.empty()) s.cosine[sample] = rendered.cosine[pixel];
+        // Black is what a shadow is, too: only what the sensor could not hold says nothing.
+        if ((photo.flaws[pixel] & (capture::kClipped | capture::kNotFinite)) != 0) s.weight[sample] = 0;
+      }
+    });
+  }
+  return s;
+}
+
+}  // namespace likeness::realis
