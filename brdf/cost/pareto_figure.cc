@@ -15,18 +15,22 @@ std::string time_text(double ns) {
 
 std::string pareto_figure(const FamilyResult& result, Precision precision) {
   const std::size_t p = std::size_t(precision);
-  const std::string name = std::string(kPrecisionNames[p]) + (p == 2 ? " of floats" : "");
+  const std::string precision_name = std::string(kPrecisionNames[p]) + (p == 2 ? " of floats" : "");
   page::ParetoPlot plot;
-  plot.title = result.family.title + ", " + name + ": error against time.";
-  plot.corner = name;
+  plot.title = result.family.title + ", " + precision_name + ": error against time.";
+  plot.corner = precision_name;
   plot.time_axis = "ns per evaluation", plot.error_axis = "relative RMS error, down is better";
   plot.noise = result.noise, plot.time_text = time_text;
   for (std::size_t i = 0; i < result.cells.size(); ++i) {
     const Cell &cell = result.cells[i][p], &timed = cell.one_by_one ? result.cells[i][1] : cell;
     const Rung& rung = result.family.rungs[i];
-    plot.points.push_back({rung.label + (rung.is_reference ? ", the reference" : ""), timed.timing.ns,
-                           cell.accuracy.rms, cell.one_by_one ? page::ParetoMark::kSquare : page::ParetoMark::kDisc,
-                           !cell.dominated_by.empty(), true,
+    const std::string name = rung.label + (rung.is_reference ? ", the reference" : "");
+    plot.points.push_back({name,
+                           timed.timing.ns,
+                           cell.accuracy.rms,
+                           cell.one_by_one ? page::ParetoMark::kSquare : page::ParetoMark::kDisc,
+                           !cell.dominated_by.empty(),
+                           {name},
                            cell.one_by_one ? ", one by one: the time is that of float" : ""});
     // The plots of a family share their errors' axis.
     for (const Cell& other : result.cells[i]) plot.other_errors.push_back(other.accuracy.rms);

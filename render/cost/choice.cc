@@ -12,13 +12,16 @@ Row::Timing Row::timing(bool of_cpu) const {
   return {median(values), quantile(values, 0.25), quantile(values, 0.75)};
 }
 
-std::string name_of(const Study& study, const Row& row) {
+std::string name_of(const Study& study, const Row& row) { return name_of(study, row, nullptr); }
+
+std::string name_of(const Study& study, const Row& row, const Levels* usual) {
   if (row.is_path_tracer) return "path tracer, " + std::to_string(row.samples) + " spp";
   std::string out;
   for (std::size_t i = 0; i < kSettingCount; ++i) {
-    if (!study.matters[i]) continue;
+    if (!study.matters[i] || (usual != nullptr && (*usual)[i] == row.levels[i])) continue;
     const runtime::SettingRow& setting = runtime::kSettings[i];
-    const std::string level(setting.levels[row.levels[i]]), label(setting.label);
+    std::string level(setting.levels[row.levels[i]]), label(setting.label);
+    if (level == "1" && label.ends_with('s')) label.pop_back();  // 1 pt, 4 pts
     out += out.empty() ? "" : ", ";
     out += std::to_string(setting.work(row.levels[i])) == level ? level + " " + label : label + " " + level;
   }

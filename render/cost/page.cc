@@ -19,6 +19,12 @@ std::string time_text(double ms) { return ms < 1e3 ? number(ms) + " ms" : number
 enum class Metric { kFlip, kRelmse };
 double value_of(const Errors& e, Metric metric) { return metric == Metric::kFlip ? e.flip : e.relmse; }
 
+// What a plot says of a row where the pointer is on it, and what it may write beside it.
+struct Naming {
+  std::function<std::string(const Row&)> name;
+  std::function<std::vector<std::string>(const Row&, bool is_beaten)> labels;
+};
+
 struct Pages {
   const Study& study;
   bool by_cpu = study.options.counts_cpu;
@@ -27,7 +33,7 @@ struct Pages {
   double ms(const Row& row) const { return row.timing(by_cpu).median; }
 
   std::string plot(Metric metric, const std::string& title, const std::vector<const Row*>& rows,
-                   const std::function<std::string(const Row&)>& name, bool names_all) const {
+                   const Naming& naming) const {
     page::ParetoPlot p;
     const bool is_flip = metric == Metric::kFlip;
     p.title = title + (is_flip ? ": FLIP against time" : ": relMSE against time");
@@ -47,17 +53,16 @@ struct Pages {
       const bool is_out = !row->is_path_tracer && std::any_of(rows.begin(), rows.end(), [&](const Row* other) {
         return !other->is_path_tracer && value_of(other->errors, metric) <= error && ms(*other) < ms(*row);
       });
-      p.points.push_back({name(*row), ms(*row), error,
+      p.points.push_back({naming.name(*row), ms(*row), error,
                           row->is_path_tracer ? page::ParetoMark::kDiamond : page::ParetoMark::kDisc, is_out,
-                          names_all || row->is_path_tracer || !is_out});
+                          naming.labels(*row, is_out)});
     }
     return "<figure>" + drawing_of(p) + "</figure>";
   }
 
-  std::string plots(const std::string& title, const std::vector<const Row*>& rows,
-                    const std::function<std::string(const Row&)>& name, bool names_all) const {
-    return "<div class=\"plots\">" + plot(Metric::kFlip, title, rows, name, names_all) +
-           plot(Metric::kRelmse, title, rows, name, names_all) + "</div>\n";
+  std::string plots(const std::string& title, const std::vector<const Row*>& rows, const Naming& naming) const {
+    return "<div class=\"plots\">" + plot(Metric::kFlip, title, rows, naming) +
+           plot(Metric::kRelmse, title, rows, naming) + "</div>\n";
   }
 
   static std::string image(const std::string& png, const std::string& text) {
@@ -105,6 +110,26 @@ std::vector<const Row*> by_time(const Pages& pages, bool path_tracer) {
     if (row.is_path_tracer == path_tracer) rows.push_back(&row);
   std::sort(rows.begin(), rows.end(), [&](const Row* a, const Row* b) { return pages.ms(*a) < pages.ms(*b); });
   return rows;
+}
+
+// The frames as the table has them: of the pipeline, then of the path tracer, each in the order of their time.
+std::vector<const Row*> in_order(const Pages& pages) {
+  std::vector<const Row*> rows = by_time(pages, false);
+  const std::vector<const Row*> traced = by_time(pages, true);
+  rows.insert(rows.end(), traced.begin(), traced.end());
+  return rows;
+}
+
+// The level of each setting that most of the frames have that nothing beats: what labels can leave out.
+Levels usual_of(const Study& study) {
+  Levels usual{};
+  for (std::size_t i = 0; i < kSettingCount; ++i) {
+    std::vector<std::size_t> counts(runtime::kSettings[i].levels.size());
+    for (const Row& row : study.rows)
+      if (!row.is_path_tracer && row.dominated_by.empty()) ++counts[row.levels[i]];
+    usual[i] = static_cast<Levels::value_type>(std::max_element(counts.begin(), counts.end()) - counts.begin());
+  }
+  return usual;
 }
 
 // By less, a frame may be nearer to the reference than exact direct light by its noise alone.
@@ -175,12 +200,14 @@ std::string setting_section(const Pages& pages, std::size_t setting) {
       rest += (rest.empty() ? "" : ", ") + std::string(runtime::kSettings[i].name) + " " +
               std::string(runtime::kSettings[i].levels[study.best[i]]);
   const auto name = [&](const Row& r) { return std::string(row.levels[r.levels[setting]]); };
-  std::string out = "<h2 id=\"" + std::string(row.name) + "\">" + std::string(row.name) + "</h2>\n" +
-                    element("p", "One at a time: " + std::string(row.text) + "." +
-                                     (rest.empty() ? ""
-                                                   : " The rest as high as " + time_text(study.options.longest_ms) +
-                                                         " of CPU a frame allow: " + rest + ".")) +
-                    pages.plots(std::string(row.name), rows, name, true) + "<div class=\"cards\">\n";
+  std::string out =
+      "<h2 id=\"" + std::string(row.name) + "\">" + std::string(row.name) + "</h2>\n" +
+      element("p", "One at a time: " + std::string(row.text) + "." +
+                       (rest.empty() ? ""
+                                     : " The rest as high as " + time_text(study.options.longest_ms) +
+                                           " of CPU a frame allow: " + rest + ".")) +
+      pages.plots(std::string(row.name), rows, {name, [&](const Row& r, bool) { return std::vector{name(r)}; }}) +
+      "<div class=\"cards\">\n";
   for (const Row* r : rows) out += pages.card(std::string(row.name) + " " + name(*r), *r);
   return out + "</div>\n";
 }
@@ -266,17 +293,16 @@ std::string table_section(const Pages& pages) {
     out += " " + std::to_string(study.not_promising) +
            " more were not measured: by what was known of their passes and errors, others are as exact in less time.";
   out +=
-      "</p>\n<div class=\"scroll\"><table class=\"metrics\"><thead><tr><th>frame</th><th>ms</th><th>CPU ms</th>"
+      "</p>\n<div class=\"scroll\"><table class=\"metrics\"><thead><tr><th>no.</th><th>frame</th><th>ms</th><th>CPU "
+      "ms</th>"
       "<th>predicted CPU ms</th><th>FLIP</th><th>relMSE</th><th>stops, median</th><th>stops, 95 %</th></tr></thead>"
       "<tbody>\n";
-  std::vector<const Row*> rows = by_time(pages, false);
-  const std::vector<const Row*> traced = by_time(pages, true);
-  rows.insert(rows.end(), traced.begin(), traced.end());
-  for (const Row* row : rows) {
+  int number_of_row = 0;
+  for (const Row* row : in_order(pages)) {
     const double cpu = row->timing(true).median;
-    out += std::string("<tr") + (row->dominated_by.empty() ? "" : " class=\"fixed\"") + "><th scope=\"row\">" +
-           (row->dominated_by.empty() ? "" : "○ ") + escape(name_of(study, *row)) +
-           (row->is_path_tracer ? " <span class=\"badge\">all bounces</span>" : "") +
+    out += std::string("<tr") + (row->dominated_by.empty() ? "" : " class=\"fixed\"") + "><td class=\"n\">" +
+           std::to_string(++number_of_row) + "</td><th scope=\"row\">" + (row->dominated_by.empty() ? "" : "○ ") +
+           escape(name_of(study, *row)) + (row->is_path_tracer ? " <span class=\"badge\">all bounces</span>" : "") +
            (row->dominated_by.empty() ? "" : "<small>beaten by " + escape(row->dominated_by) + "</small>") + "</th>" +
            Pages::reading(*row, false) + Pages::reading(*row, true);
     if (row->is_path_tracer) out += "<td></td>";
@@ -292,6 +318,29 @@ std::string table_section(const Pages& pages) {
          "from.</p>\n";
 }
 
+std::string whole_plots(const Pages& pages) {
+  const Study& study = pages.study;
+  const std::vector<const Row*> all = in_order(pages);
+  const Levels usual = usual_of(study);
+  const auto number_of = [&](const Row& row) {
+    return std::to_string(1 + (std::find(all.begin(), all.end(), &row) - all.begin()));
+  };
+  const auto labels = [&](const Row& row, bool is_beaten) {
+    const std::string no = number_of(row), rest = name_of(study, row, &usual);
+    if (row.is_path_tracer) return std::vector{std::to_string(row.samples) + " spp"};
+    if (is_beaten) return std::vector<std::string>{};
+    return std::vector{no + ": " + (rest.empty() ? "as usual" : rest), no};
+  };
+  const auto name = [&](const Row& row) { return "no. " + number_of(row) + ": " + name_of(study, row); };
+  Row as_usual;
+  as_usual.levels = usual;
+  return pages.plots("Whole frame", all, {name, labels}) +
+         element("p",
+                 "Numbers are those of the table \"All frames\"; the name of a dot is where the pointer is on it. "
+                 "Labels say what differs from " +
+                     name_of(study, as_usual) + ".");
+}
+
 constexpr std::string_view kStyle =
     ".plots{grid-template-columns:repeat(auto-fit,minmax(min(100%,520px),1fr))}.plots figure{max-width:760px}"
     ".cards{grid-template-columns:repeat(auto-fill,minmax(min(100%,350px),1fr));margin-top:14px}"
@@ -303,6 +352,7 @@ constexpr std::string_view kStyle =
     ".ramp{display:inline-block;width:9em;height:.8em;vertical-align:-.1em;background:linear-gradient(90deg,#000004,#"
     "641a80,"
     "#ca3e72,#fd9969,#fcfdbf);-webkit-print-color-adjust:exact;print-color-adjust:exact}"
+    ".plots figure{overflow-x:auto}.plots svg{min-width:500px}"
     "@media (max-width:1000px){.first{grid-template-columns:minmax(0,1fr)}}\n";
 
 }  // namespace
@@ -341,9 +391,7 @@ std::string page_of(const Study& study) {
                "the environment without shadows are brighter just where later bounces are missing."
              : "");
   out += "</p>\n";
-  std::vector<const Row*> all;
-  for (const Row& row : study.rows) all.push_back(&row);
-  out += pages.plots("Whole frame", all, [&](const Row& row) { return name_of(study, row); }, false);
+  out += whole_plots(pages);
   out +=
       "<p class=\"quiet\">Below, on the left what the screen shows, on the right where it differs from the reference: "
       "FLIP from 0 <span class=\"ramp\"></span> to 1.</p>\n";

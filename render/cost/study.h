@@ -88,6 +88,8 @@ struct Study {
 
 // "4 pts, 16 shadow, env maps": the settings that matter. "path tracer, 4 spp".
 std::string name_of(const Study& study, const Row& row);
+// Of those settings only the ones that are not as usual; empty if all are.
+std::string name_of(const Study& study, const Row& row, const Levels* usual);
 
 // `goes_on` is told the phase and the share of it that is done, and asked whether to go on; when it says no, what was
 // measured so far is returned. Throws files::InputError for a reference that cannot be used.

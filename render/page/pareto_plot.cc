@@ -28,7 +28,7 @@ struct Point {
   const ParetoPoint* source;
   double time, error;  // as drawn
   double x = 0, y = 0;
-  std::string label = {};
+  std::string numbers = {};  // where an axis does not tell them
 
   bool in_front() const { return source->mark == ParetoMark::kDisc && !source->is_dominated; }
 };
@@ -51,9 +51,17 @@ class Labels {
     for (const Point& p : points)
       taken_.push_back({p.x - kDisc - 1, p.y - kDisc - 1, p.x + kDisc + 1, p.y + kDisc + 1});
   }
+  // The first label of the point that has room, nearest to it; empty if none has.
   std::string place(const Point& p) {
+    for (const std::string& label : p.source->labels)
+      if (const std::string out = place(p, label + p.numbers); !out.empty()) return out;
+    return "";
+  }
+
+ private:
+  std::string place(const Point& p, const std::string& label) {
     const bool in_front = p.in_front();
-    const double width = width_of(p.label, in_front);
+    const double width = width_of(label, in_front);
     struct Candidate {
       double dx, dy;  // from the point to the near end of the text, or to its middle
       int side;       // 1 to the right, -1 to the left, 0 above or below
@@ -66,18 +74,17 @@ class Labels {
       if (std::abs(dy) >= 20) all.push_back({0, dy, 0});
     }
     const Candidate* best = nullptr;
-    Box best_box{};
-    double least = 1e300;
     for (const Candidate& c : all) {
       const double x = p.x + c.dx - (c.side < 0 ? width : c.side == 0 ? width / 2 : 0), y = p.y + c.dy;
       const Box box{x - 1, y - kLine / 2, x + width + 1, y + kLine / 2};
       const Box inside{kLeft + 2, kTop + 2, kRight - 2, kBottom - 2};
-      double cost = (box.x1 - box.x0) * (box.y1 - box.y0) - box.overlap(inside);
-      for (const Box& other : taken_) cost += box.overlap(other);
-      if (cost < least - 1e-9) least = cost, best = &c, best_box = box;
-      if (least <= 1e-9) break;
+      if ((box.x1 - box.x0) * (box.y1 - box.y0) - box.overlap(inside) > 1e-9) continue;
+      if (std::any_of(taken_.begin(), taken_.end(), [&](const Box& other) { return other.overlap(box) > 0; })) continue;
+      best = &c;
+      taken_.push_back(box);
+      break;
     }
-    taken_.push_back(best_box);
+    if (best == nullptr) return "";
     const double anchor = p.x + best->dx;
     std::string out;
     if (std::abs(best->dy) > 15)
@@ -89,11 +96,10 @@ class Labels {
                           best->side > 0   ? "start"
                           : best->side < 0 ? "end"
                                            : "middle",
-                          escape(p.label), kLabelSize,
+                          escape(label), kLabelSize,
                           " style=\"" + style + ";paint-order:stroke;stroke:#fff;stroke-width:3px\"");
   }
 
- private:
   std::vector<Box> taken_;
 };
 
@@ -186,6 +192,30 @@ std::string noise_of(const ParetoPlot& plot, const Axis& y) {
          svg_text(kLeft + 6, kBottom - 6, "start", "below the noise of the reference", 11);
 }
 
+// Who is labelled first: the front, then what is for comparison, then the rest; and in each of them the point that is
+// farthest from those before it, so that labels spread over the plot.
+std::vector<const Point*> by_claim(const std::vector<Point>& points) {
+  const auto rank = [](const Point& p) { return p.in_front() ? 0 : p.source->mark == ParetoMark::kDiamond ? 1 : 2; };
+  std::vector<const Point*> out;
+  for (int k = 0; k < 3; ++k) {
+    std::vector<const Point*> left;
+    for (const Point& p : points)
+      if (rank(p) == k) left.push_back(&p);
+    while (!left.empty()) {
+      const auto nearest = [&](const Point* p) {
+        double least = HUGE_VAL;
+        for (const Point* other : out) least = std::min(least, std::hypot(p->x - other->x, p->y - other->y));
+        return least;
+      };
+      const auto next = std::max_element(left.begin(), left.end(),
+                                         [&](const Point* a, const Point* b) { return nearest(a) < nearest(b); });
+      out.push_back(*next);
+      left.erase(next);
+    }
+  }
+  return out;
+}
+
 }  // namespace
 
 std::string drawing_of(const ParetoPlot& plot) {
@@ -206,7 +236,7 @@ std::string drawing_of(const ParetoPlot& plot) {
     std::string numbers;
     if (y.in_strip(point.error)) numbers = error_text(point.error, plot.least_error);
     if (x.in_strip(point.time)) numbers += (numbers.empty() ? "" : ", ") + plot.time_text(point.time);
-    point.label = point.source->name + (numbers.empty() ? "" : " (" + numbers + ")");
+    if (!numbers.empty()) point.numbers = " (" + numbers + ")";
   }
   std::string content = frame(plot, x, y) + noise_of(plot, y);
   std::vector<Box> taken;
@@ -219,10 +249,7 @@ std::string drawing_of(const ParetoPlot& plot) {
   content += front_of(points) + line_of_diamonds(points);
   Labels labels(points, std::move(taken));
   std::string marks, names;
-  // The front's names take the nearest places.
-  for (const bool in_front : {true, false})
-    for (const Point& point : points)
-      if (point.in_front() == in_front && point.source->is_named) names += labels.place(point);
+  for (const Point* point : by_claim(points)) names += labels.place(*point);
   for (const Point& point : points)
     marks += "<g><title>" + escape(point.source->name) + ": " + escape(plot.time_text(point.time)) + ", error " +
              error_text(point.error, plot.least_error) + (point.source->is_dominated ? ", dominated" : "") +

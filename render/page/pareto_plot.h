@@ -18,7 +18,8 @@ struct ParetoPoint {
   double time = 0, error = 0;  // above 0; smaller ones are drawn as least_time and least_error
   ParetoMark mark = ParetoMark::kDisc;
   bool is_dominated = false;
-  bool is_named = true;     // otherwise its name is only said where the pointer is on it
+  // What may be written beside it: the first that has room; nothing if none has. Its name is said where the pointer is.
+  std::vector<std::string> labels = {};
   std::string remark = {};  // said there after name, time and error
 };
 

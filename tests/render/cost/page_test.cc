@@ -95,15 +95,63 @@ TEST(CostJson, HoldsEveryRow) {
 
 TEST(CostTable, HasALineForEachRow) {
   const std::string table = table_of(study());
-  EXPECT_EQ(count(table, " pts, "), 4u);
+  EXPECT_EQ(count(table, " pts, "), 2u);
+  EXPECT_EQ(count(table, "1 pt, "), 2u);
   EXPECT_EQ(count(table, "path tracer, 4 spp"), 1u);
   EXPECT_THAT(table, HasSubstr("off by 5.0 % in the middle"));
+}
+
+TEST(CostPage, NumbersFramesInPlotAndTableAlike) {
+  const std::string page = page_of(study());
+  EXPECT_EQ(count(page, "<title>no. 2: 4 pts, 1 shadow: "), 2u) << "in both plots";
+  EXPECT_EQ(count(page, "<td class=\"n\">2</td>"), 1u) << "in the table";
+  EXPECT_THAT(page, Not(HasSubstr("1 pts")));
+}
+
+struct Text {
+  double x0, x1, y;
+};
+// The labels of a drawing, by the place and the size of their letters.
+std::vector<Text> labels_of(const std::string& svg) {
+  std::vector<Text> out;
+  for (std::size_t at = svg.find("<text "); at != svg.npos; at = svg.find("<text ", at + 1)) {
+    const std::size_t end = svg.find("</text>", at);
+    const std::string text = svg.substr(at, end - at);
+    if (text.find("paint-order") == text.npos) continue;
+    const auto attribute = [&](const std::string& name) {
+      const std::size_t from = text.find(" " + name + "=\"") + name.size() + 3;
+      return text.substr(from, text.find('"', from) - from);
+    };
+    const double x = std::stod(attribute("x")), width = 6.2 * double(text.size() - text.find('>') - 1);
+    const std::string anchor = attribute("text-anchor");
+    const double x0 = anchor == "start" ? x : anchor == "end" ? x - width : x - width / 2;
+    out.push_back({x0, x0 + width, std::stod(attribute("y"))});
+  }
+  return out;
+}
+
+TEST(ParetoPlot, LaysNoLabelOverAnotherHoweverManyThereAre) {
+  page::ParetoPlot plot;
+  plot.title = "crowd", plot.time_text = [](double t) { return std::to_string(t); };
+  for (int i = 0; i < 40; ++i) {
+    const std::string no = std::to_string(i);
+    plot.points.push_back(
+        {no, 100.0 + i, 0.1 - 1e-4 * i, page::ParetoMark::kDisc, false, {no + ": 1 shadow, env rays4", no}});
+  }
+  const std::vector<Text> labels = labels_of(drawing_of(plot));
+  EXPECT_GE(labels.size(), 8u) << "there is room for some";
+  for (std::size_t i = 0; i < labels.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k)
+      EXPECT_FALSE(std::abs(labels[i].y - labels[k].y) < 11 && labels[i].x0 < labels[k].x1 &&
+                   labels[k].x0 < labels[i].x1)
+          << i << " and " << k;
 }
 
 TEST(ParetoPlot, EscapesNamesAndLeavesOutThoseThatAreNotWanted) {
   page::ParetoPlot plot;
   plot.title = "T <t>", plot.time_text = [](double t) { return std::to_string(t); };
-  plot.points = {{"a<b", 1, 1}, {"hidden", 2, 2, page::ParetoMark::kDisc, true, false}};
+  plot.points = {{"a<b", 1, 1, page::ParetoMark::kDisc, false, {"a<b"}},
+                 {"hidden", 2, 2, page::ParetoMark::kDisc, true}};
   plot.levels = {{0.5, "floor & co"}};
   const std::string svg = drawing_of(plot);
   EXPECT_THAT(svg, HasSubstr("a&lt;b"));
