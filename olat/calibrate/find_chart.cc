@@ -8,6 +8,9 @@
 #include <optional>
 #include <utility>
 
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
 #include "olat/calibrate/call_opencv.h"
 #include "olat/calibrate/perspective.h"
 #include "render/files/files.h"
@@ -88,14 +91,26 @@ std::vector<Patch> patches_in(const Grey& grey) {
                  shorter = std::min(length(patch.right), length(patch.down));
     if (!(shorter > 0.4 * longer && patch.area > 0.5 * longer * shorter)) all.pop_back();
   }
-  // Thresholds find a patch many times: the largest of them is kept.
+  // Thresholds find a patch many times: the largest of them is kept, with the median of their middles.
   std::sort(all.begin(), all.end(), [](const Patch& p, const Patch& q) { return p.area > q.area; });
   std::vector<Patch> out;
-  for (const Patch& patch : all)
-    if (std::none_of(out.begin(), out.end(), [&](const Patch& kept) {
-          return length(kept.middle - patch.middle) < 0.4 * std::sqrt(patch.area) && kept.area < 2.5 * patch.area;
-        }))
-      out.push_back(patch);
+  std::vector<std::array<std::vector<double>, 2>> middles;
+  for (const Patch& patch : all) {
+    std::size_t same = 0;
+    while (same < out.size() && !(length(out[same].middle - patch.middle) < 0.4 * std::sqrt(patch.area) &&
+                                  out[same].area < 2.5 * patch.area))
+      ++same;
+    if (same == out.size()) out.push_back(patch), middles.emplace_back();
+    if (out[same].area < 1.5 * patch.area)
+      for (std::size_t k = 0; k < 2; ++k) middles[same][k].push_back(patch.middle[k]);
+  }
+  for (std::size_t i = 0; i < out.size(); ++i)
+    for (std::size_t k = 0; k < 2; ++k) {
+      auto& values = middles[i][k];
+      const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+      std::nth_element(values.begin(), middle, values.end());
+      out[i].middle[k] = *middle;
+    }
   return out;
 }
 
@@ -194,6 +209,65 @@ std::optional<Perspective> perspective_of_window(const std::vector<Patch>& patch
   return {};
 }
 
+// How far a patch lies from the middle of its cell along one axis of it [cell], by the middle between its two edges: in
+// the cell's own coordinates, perspective moves neither. Nothing if the edges do not lie like those of a patch.
+std::optional<double> off_middle(const Picture& photo, const Perspective& seen, double column, double row,
+                                 bool is_across) {
+  constexpr int kSteps = 80, kLines = 24;
+  std::array<glm::dvec3, kSteps> profile{};
+  for (int k = 0; k < kSteps; ++k)
+    for (int j = 0; j < kLines; ++j) {
+      const double along = (k + 0.5) / kSteps, beside = 0.3 + 0.4 * (j + 0.5) / kLines;
+      const auto [u, v] = seen(column + (is_across ? along : beside), row + (is_across ? beside : along));
+      if (!(u >= 0 && v >= 0 && u < photo.width && v < photo.height)) return {};
+      const auto pixel = photo.at(static_cast<int>(u), static_cast<int>(v));
+      profile[static_cast<std::size_t>(k)] += glm::dvec3(pixel[0], pixel[1], pixel[2]);
+    }
+  constexpr int kReach = 2, kSide = 28;  // of a slope; of the part of the cell in which an edge may lie
+  std::array<double, 2> edges{};
+  for (const bool is_second : {false, true}) {
+    double sum = 0, moment = 0;
+    for (int k = kReach; k < kSide; ++k) {
+      const auto at = static_cast<std::size_t>(is_second ? kSteps - 1 - k : k);
+      const glm::dvec3 slope = profile[at + kReach] - profile[at - kReach];
+      const double weight = glm::dot(slope, slope) * glm::dot(slope, slope);
+      sum += weight, moment += weight * (static_cast<double>(at) + 0.5) / kSteps;
+    }
+    if (!(sum > 0)) return {};
+    edges[is_second ? 1 : 0] = moment / sum;
+  }
+  const double off = 0.5 * (edges[0] + edges[1]) - 0.5;
+  return std::abs(off) < 0.08 ? std::optional(off) : std::nullopt;
+}
+
+// The same perspective by the edges of the patches in all the photo's pixels.
+Perspective refined(const Picture& photo, Perspective seen, const Window& window) {
+  for (int round = 0; round < 3; ++round) {
+    std::vector<Point> cells, pixels;
+    for (int row = 0; row < window.rows; ++row)
+      for (int column = 0; column < window.columns; ++column) {
+        const auto across = off_middle(photo, seen, column, row, true),
+                   down = off_middle(photo, seen, column, row, false);
+        if (!across || !down) continue;
+        cells.push_back({column + 0.5, row + 0.5});
+        pixels.push_back(seen(column + 0.5 + *across, row + 0.5 + *down));
+      }
+    if (cells.size() < kFewestPatches) return seen;
+    seen = perspective_of(cells, pixels);
+    // Once more without those that do not fit: an edge of a shadow, a label beside the chart.
+    std::vector<double> off;
+    for (std::size_t i = 0; i < cells.size(); ++i) off.push_back(length(seen(cells[i][0], cells[i][1]) - pixels[i]));
+    std::vector<double> sorted = off;
+    std::nth_element(sorted.begin(), sorted.begin() + std::ptrdiff_t(sorted.size() / 2), sorted.end());
+    const double largest = std::max(0.1, 3 * sorted[sorted.size() / 2]);
+    for (std::size_t i = off.size(); i-- > 0;)
+      if (off[i] > largest)
+        cells.erase(cells.begin() + std::ptrdiff_t(i)), pixels.erase(pixels.begin() + std::ptrdiff_t(i));
+    if (cells.size() >= kFewestPatches) seen = perspective_of(cells, pixels);
+  }
+  return seen;
+}
+
 // How well a chart with these corners has the reference's colors; nothing if it has not.
 std::optional<double> delta_e_at(const Picture& photo, const Corners& corners, const Reference& reference) {
   try {
@@ -237,12 +311,12 @@ std::vector<FoundChart> find_charts(const Picture& photo, const Reference& refer
     std::vector<FoundChart> read;
     for (const Window& window : windows_of(grid))
       if (const auto seen = perspective_of_window(patches, grid, window, grey.reduction))
-        for (const Corners& corners : readings(*seen, window))
+        for (const Corners& corners : readings(refined(photo, *seen, window), window))
           if (const auto delta_e = delta_e_at(photo, corners, reference))
             read.push_back({corners, window.seen, *delta_e});
     std::sort(read.begin(), read.end(), [](const auto& p, const auto& q) { return p.delta_e < q.delta_e; });
+    for (const auto& [at, patch] : grid) taken[patch] = true;  // a chart or none, it is not looked at again
     if (read.empty() || (read.size() > 1 && read[1].delta_e < kAsGoodAs * read[0].delta_e)) continue;
-    for (const auto& [at, patch] : grid) taken[patch] = true;
     const bool is_known = std::any_of(out.begin(), out.end(), [&](const FoundChart& other) {
       return length(other.corners[0] - read[0].corners[0]) < length(read[0].corners[1] - read[0].corners[0]) / 6;
     });

@@ -20,10 +20,10 @@ capture::Camera straightened(const capture::Camera& camera);
 // does not reach so far, or if the lens's polynomial turns back before it.
 class Straightener {
  public:
-  // Throws files::UsageError for an orthographic camera, and for a side of more than 32767 pixels (cv::remap).
+  // Throws files::UsageError for an orthographic camera.
   explicit Straightener(const capture::Camera& camera);
 
-  // Bicubic, to 1/64 pixel; 0 outside. A constant photo stays constant to 2e-7 of its value.
+  // Bicubic; 0 outside. A constant photo stays constant to 2e-7 of its value.
   image::Picture smooth(const image::Picture& photo) const;
   // The nearest pixel, for what has no mean; 0 outside.
   image::Picture nearest(const image::Picture& photo) const;
@@ -33,8 +33,6 @@ class Straightener {
   const std::vector<std::uint8_t>& inside() const { return inside_; }
 
  private:
-  image::Picture moved(const image::Picture& photo, bool is_cubic) const;
-
   int width_, height_;
   std::vector<float> x_, y_;  // of OpenCV's pixels in the photo
   std::vector<std::uint8_t> inside_;

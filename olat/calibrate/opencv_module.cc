@@ -96,16 +96,6 @@ __attribute__((visibility("default"))) int likeness_bend_1(const likeness_lens* 
   });
 }
 
-__attribute__((visibility("default"))) int likeness_remap_1(const float* from, float* to, int width, int height,
-                                                            const float* x, const float* y, int is_cubic, char* error,
-                                                            size_t error_size) {
-  return guarded(error, error_size, [&] {
-    cv::Mat out(height, width, CV_32FC3, to);
-    cv::remap(mat_of(from, width, height, CV_32FC3), out, mat_of(x, width, height, CV_32FC1),
-              mat_of(y, width, height, CV_32FC1), is_cubic ? cv::INTER_CUBIC : cv::INTER_NEAREST, cv::BORDER_REPLICATE);
-  });
-}
-
 __attribute__((visibility("default"))) int likeness_quads_1(const unsigned char* grey, int width, int height,
                                                             double least, double largest, double* quads, int most,
                                                             int* count, char* error, size_t error_size) {

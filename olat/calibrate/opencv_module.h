@@ -21,11 +21,6 @@ typedef int (*likeness_lens_map_function)(const likeness_lens* lens, int width, 
 typedef int (*likeness_bend_function)(const likeness_lens* lens, double* points, int count, char* error,
                                       size_t error_size);
 
-// `to` at each pixel is `from` at (x, y) of that pixel: three floats a pixel, bicubic or nearest. Beyond the edge the
-// last pixel goes on.
-typedef int (*likeness_remap_function)(const float* from, float* to, int width, int height, const float* x,
-                                       const float* y, int is_cubic, char* error, size_t error_size);
-
 // Quadrangles of one tone in a grey picture, of an area within [least, largest] pixels: 10 numbers each (x y of the
 // corners, clockwise in the picture, and of the middle of the area), at most `most`; `count` says how many.
 typedef int (*likeness_quads_function)(const unsigned char* grey, int width, int height, double least, double largest,
@@ -37,5 +32,5 @@ inline constexpr int kQuadNumbers = 10;
 inline constexpr const char* kOpenCvFile = "likeness_opencv.so";
 // The digit is the version of the agreement.
 inline constexpr const char *kLensMapName = "likeness_lens_map_1", *kBendName = "likeness_bend_1",
-                            *kRemapName = "likeness_remap_1", *kQuadsName = "likeness_quads_1";
+                            *kQuadsName = "likeness_quads_1";
 }  // namespace likeness::olat_calibrate
