@@ -12,7 +12,16 @@ CLI::App& add_olat(CLI::App& program) {
   likeness olat import photos/                  a capture: four small files beside your photographs, which stay as they are
   likeness olat render photos.capture --from-normals
                                                 a render for each photograph (or --scene scene.json)
-Manual: docs/capture.md, docs/olat_import.md, docs/olat_render.md)");
+  likeness olat check photos.capture            what is wrong with the capture
+  likeness olat calibrate photos.capture --gain light
+                                                the intensity of each light; --help has color, noise and lens
+  likeness olat view photos.capture             the address of a page: arrow keys go on, Space flips photograph and render
+  likeness olat compare photos.capture --out errors
+                                                every metric of every pair
+  likeness olat report photos.capture --out report.html
+                                                one page to mail
+Manual: docs/capture.md and a page a command: docs/olat_import.md, olat_render.md, olat_check.md, olat_calibrate.md,
+olat_view.md, olat_compare.md)");
   return *group;
 }
 

@@ -94,6 +94,11 @@ std::string replaced(std::string text, std::string_view mark, std::string_view w
   return text.replace(at, mark.size(), with);
 }
 
+// "1 camera", "3 cameras".
+std::string counted(std::size_t count, std::string_view what) {
+  return std::to_string(count) + " " + std::string(what) + (count == 1 ? "" : "s");
+}
+
 // In a script element nothing may look like its end.
 std::string in_script(std::string text) {
   for (std::size_t at = 0; (at = text.find("</", at)) != std::string::npos; at += 3) text.replace(at, 2, "<\\/");
@@ -209,8 +214,8 @@ ReportSummary write_report(const capture::Capture& capture, const ReportOptions&
   const std::string title = (capture.name.empty() ? "Capture" : capture.name) + ": photographs against renders";
   std::string intro = page::element("h1", title);
   intro += "<p>" +
-           page::escape(std::to_string(compared.size()) + " pairs of " + std::to_string(capture.cameras.size()) +
-                        " cameras and " + std::to_string(lights) + " lights were compared, renders \"" +
+           page::escape(counted(compared.size(), "pair") + " of " + counted(capture.cameras.size(), "camera") +
+                        " and " + counted(lights, "light") + " compared, renders \"" +
                         capture.variants[first.variant].id + "\", by " + options.metric + ": " +
                         std::string(metric::row_of(metric).text) + ". The worst " + std::to_string(held) +
                         " are below, as light, so that exposure and view can still be changed. Space flips, W wipes, D "
