@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "render/files/files.h"
@@ -9,6 +10,7 @@
 #include "render/plan/plan.h"
 #include "render/reference/reference.h"
 #include "render/runtime/pipeline.h"
+#include "render/scene/read_scene.h"
 #include "render/world/world.h"
 
 namespace likeness::olat_render {
@@ -17,13 +19,13 @@ scene::Camera camera_of(const capture::Camera& camera) {
   const auto refuse = [&](const std::string& text) {
     throw files::UsageError("--scene: camera " + files::in_quotes(camera.id) + " " + text);
   };
-  if (camera.is_orthographic) refuse("is orthographic, and scenes have pinholes only; --from-normals renders it");
   if (!camera.is_undistorted)
     refuse("has photographs with lens distortion; likeness olat calibrate CAPTURE --undistort --out NEW undoes it");
   if (camera.intrinsics[1][0] != 0)
     refuse("has a skew, and scenes have none; likeness olat calibrate CAPTURE --undistort --out NEW undoes it");
   scene::Camera out;
   out.name = camera.id;
+  out.is_orthographic = camera.is_orthographic;
   out.width = camera.width;
   out.height = camera.height;
   out.focal_x = camera.intrinsics[0][0];
@@ -36,6 +38,16 @@ scene::Camera camera_of(const capture::Camera& camera) {
   turned[2] = -turned[2];
   out.world_from_camera = glm::mat4(turned);
   return out;
+}
+
+// The plane of an orthographic camera, which a capture puts anywhere, in front of all that the scene holds.
+scene::Camera in_front_of(scene::Camera camera, const scene::Bounds& all) {
+  if (!camera.is_orthographic || all.is_empty()) return camera;
+  const glm::vec3 back(camera.world_from_camera[2]), position(camera.world_from_camera[3]);
+  const float before = glm::dot(glm::max(back * all.low, back * all.high), glm::vec3(1)),
+              room = 0.01f * glm::length(all.high - all.low) + 1e-6f;
+  camera.world_from_camera[3] = glm::vec4(position + (before + room - glm::dot(position, back)) * back, 1);
+  return camera;
 }
 
 scene::Light light_of(const capture::Light& light) {
@@ -54,7 +66,7 @@ scene::Light light_of(const capture::Light& light) {
 image::Picture SceneRenderer::render(const capture::Capture& capture, std::size_t camera, std::size_t light,
                                      const std::function<bool(double)>& goes_on) const {
   scene::Scene scene = scene_;
-  scene.cameras = {camera_of(capture.cameras[camera])};
+  scene.cameras = {in_front_of(camera_of(capture.cameras[camera]), scene::bounds(scene_))};
   scene.lights = {light_of(capture.lights[light])};
   scene.environment.reset();
   for (scene::Material& material : scene.materials) {

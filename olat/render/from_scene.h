@@ -22,9 +22,8 @@ struct SceneSettings {
 };
 
 // The scene's camera and light of a pair: a distant light has an irradiance of 1 on a surface that faces it, a near one
-// 1 W/sr, so that the picture is in the unit of photographs that were divided by the light's intensity. An orthographic
-// camera becomes a pinhole so far away that the parallax is below 1/50 of a pixel for a subject as deep as the picture is wide
-// (docs/olat_render.md). Throws files::UsageError for a light without a place and for a camera with distortion in its
+// 1 W/sr, so that the picture is in the unit of photographs that were divided by the light's intensity. The plane of an
+// orthographic camera is put in front of the scene when it is rendered. Throws files::UsageError for a light without a place and for a camera with distortion in its
 // photographs.
 scene::Camera camera_of(const capture::Camera& camera);
 scene::Light light_of(const capture::Light& light);

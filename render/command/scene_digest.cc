@@ -97,6 +97,7 @@ void put(Bytes& out, const scene::Light& light) {
 void put(Bytes& out, const scene::Camera& c) {
   out.put(c.world_from_camera), out.put(c.width), out.put(c.height), out.put(c.focal_x), out.put(c.focal_y);
   out.put(c.center_x), out.put(c.center_y), out.put(c.lens_radius), out.put(c.focus_distance);
+  if (c.is_orthographic) out.put(true);  // pinholes keep the digests that they had
 }
 
 }  // namespace

@@ -67,12 +67,11 @@ void light(Context& c, const Tile& tile) {
   std::array<std::size_t, kTilePixels> pixels;
   std::array<glm::vec3, kTilePixels> sums;
   std::size_t count = 0;
-  const glm::vec3 camera = c.camera.position();
   for (int y = tile.y; y < tile.y + tile.height; ++y)
     for (int x = tile.x; x < tile.x + tile.width; ++x) {
       const std::size_t pixel = c.frame.pixel(x, y);
       if (!c.frame.cells[pixel].is_surface()) continue;
-      restore(c, pixel, camera, points[count]);
+      restore(c, pixel, points[count]);
       sums[count] = glm::vec3(0);
       pixels[count++] = pixel;
     }

@@ -93,14 +93,13 @@ Pass environment_pass(const plan::Plan& plan, const Settings& settings) {
       {Buffer::kRadiance},
       [=](Context& c) {
         if (!c.world.lights.environment()) return;  // every effect is forced, and there is none
-        const glm::vec3 camera = c.camera.position();
         for_tiles(c.frame, true, [&](Tile& tile) {
           surface::Point point;
           for (int y = tile.y; y < tile.y + tile.height; ++y)
             for (int x = tile.x; x < tile.x + tile.width; ++x) {
               const std::size_t pixel = c.frame.pixel(x, y);
               if (!c.frame.cells[pixel].is_surface()) continue;
-              restore(c, pixel, camera, point);
+              restore(c, pixel, point);
               const bool is_callisto = point.material->is_callisto;
               const glm::vec3 light = has_maps && is_callisto ? by_maps(c, point) : by_rays(c, point, pixel, rays);
               for (std::size_t k = 0; k < 3; ++k)

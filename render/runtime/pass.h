@@ -46,6 +46,6 @@ void for_tiles(Frame& frame, bool only_surfaces, const std::function<void(Tile&)
 ray::Ray camera_ray(const Context& context, int x, int y);
 
 // The point that a cell stands for, as the kernels take it. point.bound may point into `point`.
-void restore(const Context& context, std::size_t pixel, const glm::vec3& camera_position, surface::Point& point);
+void restore(const Context& context, std::size_t pixel, surface::Point& point);
 
 }  // namespace likeness::runtime

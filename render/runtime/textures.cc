@@ -27,7 +27,7 @@ void read_pixel(Context& c, int x, int y, const Work& work, surface::Point& poin
   const ray::Hit hit{met.distance, met.u, met.v, met.instance, met.triangle};
   glm::vec3 light(0);
   if (c.levels != nullptr) {
-    const world::Camera::Spread spread = c.camera.spread(ray.direction);
+    const world::Camera::Spread spread = c.camera.spread(ray.direction, met.distance);
     const surface::Pixel seen{*c.levels, c.settings.textures, work.pixel * spread.right, work.pixel * spread.down};
     c.world.surfaces.over(ray, hit, seen, point);
     if (shines) light = c.world.surfaces.emission_over(ray, hit, seen, point);
@@ -75,13 +75,13 @@ Pass texture_pass(const plan::Plan& plan) {
           }};
 }
 
-void restore(const Context& context, std::size_t pixel, const glm::vec3& camera_position, surface::Point& point) {
+void restore(const Context& context, std::size_t pixel, surface::Point& point) {
   const Cell& cell = context.frame.cells[pixel];
   const surface::Prepared& material = context.world.materials[cell.material];
   point.position = cell.position, point.normal = cell.normal, point.shading_normal = cell.shading_normal;
   point.uv = cell.uv, point.material = &material, point.kernel = &material.kernel, point.is_back = false;
   point.frame = ray::Frame(cell.shading_normal);
-  point.to_view = point.frame.local(glm::normalize(camera_position - cell.position));
+  point.to_view = point.frame.local(context.camera.to_view(cell.position));
   point.bound = {};
   point.bound.model = &material.model;
   if (!material.has_textures()) return;

@@ -41,6 +41,7 @@ constexpr std::array kCameraKeys{
     Key{.name = "fov_deg", .form = Form::kNumber, .initial = "40", .range = {1e-3, 179}, .unit = "degree", .text = "vertical field of view, whole angle"},
     Key{.name = "focal_mm", .form = Form::kNumber, .range = {1e-3, 1e6}, .unit = "mm", .text = "focal length, in the place of fov_deg"},
     Key{.name = "sensor_mm", .form = Form::kNumber, .initial = "24", .range = {1e-3, 1e5}, .unit = "mm", .text = "height of the sensor"},
+    Key{.name = "orthographic_height", .form = Form::kNumber, .range = {1e-9, 1e9}, .unit = "m", .text = "in the place of fov_deg: rays are parallel, and this is what the picture is high; there is no lens, and nothing behind the camera's plane is seen"},
     Key{.name = "focal_px", .form = Form::kPair, .range = {1e-3, 1e9}, .unit = "pixel", .text = "calibrated [fx, fy], in the place of fov_deg"},
     Key{.name = "center_px", .form = Form::kPair, .unit = "pixel", .text = "principal point from the top left corner; default: the middle"},
     Key{.name = "aperture_radius", .form = Form::kNumber, .range = {0, 1e3}, .unit = "m", .text = "of the thin lens; 0: pinhole"},

@@ -51,7 +51,12 @@ Camera camera_of(const Fields& fields) {
   fields.only_one_of("fov_deg", "focal_px");
   fields.only_one_of("focal_mm", "focal_px");
   const double sensor = fields.number("sensor_mm");
-  if (fields.has("focal_px")) {
+  for (const char* key : {"fov_deg", "focal_mm", "focal_px", "aperture_radius", "f_number", "focus_distance"})
+    fields.only_one_of(key, "orthographic_height");
+  if (fields.has("orthographic_height")) {
+    out.is_orthographic = true;
+    out.focal_x = out.focal_y = out.height / fields.number("orthographic_height");
+  } else if (fields.has("focal_px")) {
     out.focal_x = fields.pair("focal_px").x;
     out.focal_y = fields.pair("focal_px").y;
   } else {

@@ -156,12 +156,13 @@ struct Environment {
 
 // ---- how it is looked at
 
-// Pinhole or thin lens. Looks along its -z, x to the right, y up; pixel (0, 0) is the top left one and spans [0, 1)^2.
+// Pinhole, thin lens, or orthographic: then rays are parallel and start on the camera's plane. Looks along its -z, x to the right, y up; pixel (0, 0) is the top left one and spans [0, 1)^2.
 struct Camera {
   std::string name;
   glm::mat4 world_from_camera{1};
   int width = 512, height = 512;
-  double focal_x = 512, focal_y = 512;    // [pixel]
+  bool is_orthographic = false;
+  double focal_x = 512, focal_y = 512;    // [pixel]; orthographic: [pixel/m]
   double center_x = 256, center_y = 256;  // of projection [pixel]
   float lens_radius = 0;                  // [m]; 0: pinhole
   float focus_distance = 1;               // [m], along -z

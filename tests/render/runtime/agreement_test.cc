@@ -164,5 +164,38 @@ TEST(Agreement, TheFrameDoesNotDependOnTheThreads) {
   EXPECT_EQ(frame_of(s, {}, false, 1).rgb, frame_of(s, {}, false, 3).rgb);
 }
 
+// An orthographic camera: every pixel in the same direction, so the spheres' edges are circles of their radius, and both
+// integrators shade them alike.
+TEST(Agreement, AnOrthographicCameraSeesWhatThePathTracerSees) {
+  scene::Scene s = test::spheres();
+  test::add_light(s, scene::DirectionalLight{glm::normalize(glm::vec3(-1, -2, -1.5f)), glm::vec3(3)});
+  scene::Camera& camera = s.cameras[0];
+  camera.is_orthographic = true;
+  camera.focal_x = camera.focal_y = 24;  // pixels a metre
+  Settings settings;
+  settings.pixel_samples = 64;
+  const image::Picture want = reference_of(s, 256), got = frame_of(s, settings);
+  EXPECT_NEAR(mean(got), mean(want), 0.01 * mean(want));
+  // Edges of 64 and of 256 samples differ by the noise of a share.
+  EXPECT_LT(largest_difference(got, want), 0.35);
+
+  // The camera looks down a little at the spheres' middles: where they are on the picture follows from its axes alone.
+  const world::World world(s, plan::plan_of(s));
+  const world::Camera eye(s.cameras[0]);
+  const glm::mat3 axes(camera.world_from_camera);
+  const glm::vec3 middle = glm::vec3(-0.9f, 0.8f, 0) - glm::vec3(camera.world_from_camera[3]);
+  const glm::vec2 at(48 + 24 * glm::dot(middle, axes[0]), 32 - 24 * glm::dot(middle, axes[1]));
+  for (int i = 0; i < 64; ++i) {
+    const float angle = 0.0981748f * static_cast<float>(i);
+    const glm::vec2 way(std::cos(angle), std::sin(angle));
+    const auto met = [&](float radius) {
+      const ray::Hit hit = world.tracer.closest(eye.ray(at + 24 * radius * way));
+      return hit.is_some() && hit.surface == 0;
+    };
+    EXPECT_TRUE(met(0.8f * 0.999f)) << i;
+    EXPECT_FALSE(met(0.8f * 1.001f)) << i;
+  }
+}
+
 }  // namespace
 }  // namespace likeness::runtime
