@@ -188,17 +188,20 @@ ReportSummary write_report(const capture::Capture& capture, const ReportOptions&
     const int x = std::clamp(one.x - width / 2, 0, pair.width() - width),
               y = std::clamp(one.y - height / 2, 0, pair.height() - height);
     const auto gain = olat_pair::match_gain(pair, false), gains = olat_pair::match_gain(pair, true);
-    data["pairs"].push_back(
-        {{"camera", at.camera},
-         {"light", at.light},
-         {"width", width},
-         {"height", height},
-         {"noise", pair.noise},
-         {"gains", {{"none", {1, 1, 1}}, {"light", gain}, {"channel", gains}}},
-         {"frame", Json::parse(answers.answer("/api/frame", {{"state", olat_pair::text_of(at)}}).body)},
-         {"crop", {x, y}},
-         {"photo", packed(cropped(half_of(pair.photo, pair.flaws), x, y, width, height))},
-         {"render", packed(cropped(half_of(pair.render, {}), x, y, width, height))}});
+    Json frame = Json::parse(answers.answer("/api/frame", {{"state", olat_pair::text_of(at)}}).body);
+    // As for the root: of a path of this machine the name is left.
+    if (const std::filesystem::path photo(frame.value("photo", "")); photo.is_absolute())
+      frame["photo"] = photo.filename().string();
+    data["pairs"].push_back({{"camera", at.camera},
+                             {"light", at.light},
+                             {"width", width},
+                             {"height", height},
+                             {"noise", pair.noise},
+                             {"gains", {{"none", {1, 1, 1}}, {"light", gain}, {"channel", gains}}},
+                             {"frame", frame},
+                             {"crop", {x, y}},
+                             {"photo", packed(cropped(half_of(pair.photo, pair.flaws), x, y, width, height))},
+                             {"render", packed(cropped(half_of(pair.render, {}), x, y, width, height))}});
     std::string photos = data["capture"]["photos"][one.camera];
     photos[one.light] = '1';
     data["capture"]["photos"][one.camera] = photos;
