@@ -86,6 +86,14 @@ TEST(SceneEntries, DefaultsAreThoseOfThePlainValues) {
   EXPECT_FALSE(scene_of_members("\"name\": \"\"").environment);
 }
 
+TEST(SceneEntries, AnOrthographicCameraSpansItsHeight) {
+  const Camera c = camera("\"width\": 200, \"height\": 100, \"orthographic_height\": 0.5");
+  EXPECT_TRUE(c.is_orthographic);
+  EXPECT_EQ(c.focal_x, 200);  // pixels a metre
+  EXPECT_EQ(c.focal_y, 200);
+  EXPECT_FALSE(camera("\"width\": 200").is_orthographic);
+}
+
 TEST(SceneEntries, ACameraLooksAtItsTarget) {
   const Camera c =
       camera("\"position\": [1, 2, 3], \"target\": [4, 2, 3], \"width\": 200, \"height\": 100, \"fov_deg\": 90");

@@ -105,9 +105,11 @@ TEST(SceneRefusals, NameParametersThatTheModelDoesNotHave) {
 }
 
 TEST(SceneRefusals, NameTwoKeysThatExcludeEachOther) {
-  for (const std::string camera : {"\"fov_deg\": 40, \"focal_mm\": 50", "\"focal_px\": [9, 9], \"focal_mm\": 50",
-                                   "\"aperture_radius\": 1, \"f_number\": 2",
-                                   "\"position\": [0, 0, 0], \"matrix\": [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0]]"})
+  for (const std::string camera :
+       {"\"fov_deg\": 40, \"focal_mm\": 50", "\"focal_px\": [9, 9], \"focal_mm\": 50",
+        "\"aperture_radius\": 1, \"f_number\": 2", "\"orthographic_height\": 1, \"fov_deg\": 40",
+        "\"orthographic_height\": 1, \"aperture_radius\": 1",
+        "\"position\": [0, 0, 0], \"matrix\": [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0]]"})
     EXPECT_THAT(refusal("\"cameras\": [{" + camera + "}]"), HasSubstr("are both given; only one of them can hold"))
         << camera;
   EXPECT_THAT(refusal("\"lights\": [{\"type\": \"spot\", \"direction\": [0, 0, 1], \"target\": [0, 0, 1]}]"),
