@@ -19,6 +19,7 @@ struct Arithmetic<xsimd::batch<T, A>> {
   static Batch pick(const xsimd::batch_bool<T, A>& mask, const Batch& a, const Batch& b) {
     return xsimd::select(mask, a, b);
   }
+  static Batch multiply_add(const Batch& a, const Batch& b, const Batch& c) { return xsimd::fma(a, b, c); }
   static Batch at(const float* table, const Batch& index) {
     alignas(64) T lanes[Batch::size];
     index.store_aligned(lanes);

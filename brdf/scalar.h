@@ -98,6 +98,13 @@ S at(const float* table, const S& index) {
   return Arithmetic<S>::at(table, index);
 }
 
+// a b + c, rounded once in a batch whose instruction set can: for loops whose time is that of polynomials.
+template <Scalar S>
+S multiply_add(const S& a, const S& b, const S& c) {
+  if constexpr (requires { Arithmetic<S>::multiply_add(a, b, c); }) return Arithmetic<S>::multiply_add(a, b, c);
+  else return a * b + c;
+}
+
 template <Scalar S>
 S larger(const S& a, const S& b) {
   return pick(greater(a, b), a, b);
