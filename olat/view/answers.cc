@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "olat/pair/exposure.h"
 #include "olat/pair/tables.h"
 #include "olat/view/clock.h"
 #include "render/capture/pixels.h"
@@ -107,6 +108,7 @@ Answer Answers::answer_or_throw(std::string_view path, const Parameters& paramet
   if (path == "/api/capture") return json(capture_json());
   if (path == "/api/frame") return json(frame_json(state));
   if (path == "/api/gain") return gain(parameters);
+  if (path == "/api/exposure") return json(exposure_json(state));
   if (path == "/api/pixels") return pixels(parameters);
   if (path == "/render") {
     const Turn turn(large_);
@@ -197,14 +199,31 @@ Answer Answers::gain(const Parameters& parameters) {
       gain = gain_of(state, pair);
     }
   }
-  double noise = state.noise > 0 ? state.noise : static_cast<double>(olat_pair::Pair::kUnknownNoise);
-  if (state.noise <= 0 && place.camera < capture_.noise_floor.size()) {
-    const glm::dvec3 n = capture_.noise_floor[place.camera];
-    if (const double y = 0.2126 * n.x + 0.7152 * n.y + 0.0722 * n.z; y > 0) noise = y;
-  }
   Answer out;
-  out.body = dumped({{"gain", gain}, {"noise", noise}});
+  out.body = dumped({{"gain", gain}, {"noise", noise_of(state, place)}});
   return out;
+}
+
+double Answers::noise_of(const State& state, const Place& place) const {
+  if (state.noise > 0) return state.noise;
+  if (place.camera < capture_.noise_floor.size()) {
+    const glm::dvec3 n = capture_.noise_floor[place.camera];
+    if (const double y = 0.2126 * n.x + 0.7152 * n.y + 0.0722 * n.z; y > 0) return y;
+  }
+  return static_cast<double>(olat_pair::Pair::kUnknownNoise);
+}
+
+std::string Answers::exposure_json(const State& state) {
+  Cache::Entry from = picture("photo", state, 0);
+  if (from->rgba.empty()) from = picture("render", state, 0);
+  Json out{{"percentile", nullptr}, {"average", nullptr}};
+  if (from->rgba.empty()) return dumped(out);
+  const Turn turn(large_);
+  if (const auto found = olat_pair::exposures_of(light_of(*from), flaws_of(*from), noise_of(state, place_of(state)))) {
+    out["percentile"] = found->percentile;
+    out["average"] = found->average;
+  }
+  return dumped(out);
 }
 
 Answer Answers::pixels(const Parameters& parameters) {

@@ -44,6 +44,7 @@ struct ViewOptions {
 //   /api/tables                                          olat_pair::tables_json()
 //   /api/pixels?kind=photo|render|flip&state=&level=     half floats, 1 / 2^level of the size
 //   /api/gain?state=                                     match gain of the render, noise floor
+//   /api/exposure?state=                                 olat_pair::exposures_of the photo, else of the render; or null
 //   /api/frame?state=                                    where the files are, and how the photo was taken
 //   /api/scores?metric=&variant=&camera=                 of every pair, as far as they are known; camera: the first to do
 //   /render?state=                                       the CPU's picture, PNG
@@ -76,8 +77,10 @@ class Answers {
   Answer answer_or_throw(std::string_view path, const Parameters& parameters);
   std::string capture_json() const;
   std::string frame_json(const olat_pair::State& state) const;
+  std::string exposure_json(const olat_pair::State& state);
   std::string scores_json(const Parameters& parameters);
   Answer gain(const Parameters& parameters);
+  double noise_of(const olat_pair::State& state, const olat_pair::Place& place) const;
   Answer pixels(const Parameters& parameters);
   Cache::Entry picture(std::string_view kind, const olat_pair::State& state, int level);
   HalfPicture read(std::string_view kind, const olat_pair::State& state);

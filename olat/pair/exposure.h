@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "render/image/picture.h"
+
+// Exposures for a photo that nobody has chosen one for. The viewer, the report and the tests ask here.
+namespace likeness::olat_pair {
+
+struct Exposures {
+  double percentile = 0;  // puts the 99th percentile of luminance on 1, the reference white [stop]
+  double average = 0;     // puts the mean of log luminance on middle grey, 0.18 [stop]
+};
+
+// Of linear Rec. 709 and its pixels' bits of capture::Flaw (or none), to a tenth of a stop, within [-30, 30]. Pixels count
+// that are finite, not masked, and brighter than the noise floor, so that a black background does not; where none is, all
+// above 0. Nothing where there are none of these either. The percentile is the value that nearest rank names.
+std::optional<Exposures> exposures_of(const image::Picture& photo, std::span<const std::uint8_t> flaws, double noise);
+
+}  // namespace likeness::olat_pair
