@@ -151,7 +151,7 @@ template <int kCount, Scalar S>
 std::array<S, 2> gaussian_row(const S* f) {
   return {S(f[2] * f[1] * f[1] * gaussian_density_over_area<kCount>(f[0])), gaussian_cdf<kCount>(f[0])};
 }
-inline constexpr std::array kGaussianOutputs{
+inline constexpr std::array kGaussianProfileOutputs{
     Output{.name = "R", .unit = "1/length^2", .text = "as of burley_profile, without the delta at r = 0 of the single Gaussian"},
     Output{.name = "P", .text = "part of the light that leaves within r, the delta included"}};
 
@@ -167,7 +167,7 @@ struct GaussianForm {
 struct GaussianProfile {
   static constexpr std::string_view kName = "gaussian_profile";
   static constexpr std::string_view kText = "sum of 1 (with a delta), 2 or 4 Gaussians that stand for Burley's profile";
-  static constexpr auto& kOutputs = kGaussianOutputs;
+  static constexpr auto& kOutputs = kGaussianProfileOutputs;
   static constexpr std::size_t kFeatures = 4;
   struct Form {
     static constexpr std::array kInputs{
@@ -194,7 +194,7 @@ struct GaussianProfileOf {
   static constexpr std::array<char, 18> kLetters{'g', 'a', 'u', 's', 's', 'i', 'a', 'n', '_', 'p', 'r', 'o', 'f', 'i', 'l', 'e', '_', '0' + kCount};
   static constexpr std::string_view kName{kLetters.data(), kLetters.size()};
   static constexpr std::string_view kText = "gaussian_profile with a fixed number of Gaussians";
-  static constexpr auto& kOutputs = kGaussianOutputs;
+  static constexpr auto& kOutputs = kGaussianProfileOutputs;
   static constexpr std::size_t kFeatures = 3;
   using Forms = std::tuple<GaussianForm>;
   template <Scalar S>
