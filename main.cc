@@ -23,6 +23,7 @@
 #include "olat/import/command.h"
 #include "olat/render/command.h"
 #include "olat/view/command.h"
+#include "realis/command.h"
 #include "render/command/command.h"
 #include "render/cost/command.h"
 #include "render/files/files.h"
@@ -42,9 +43,9 @@ constexpr auto kFooter = R"(Examples
   likeness cost evaluators --out out/cost      what accuracy costs in time, on this machine
   likeness render room.json                    a picture of a scene; Ctrl-C keeps what there is
   likeness cost room.json --out out/room       what each setting of the run-time pipeline costs and gains on a scene
-  likeness olat import photos/                 photographs under one light at a time, to be compared with renders
   likeness plan room.json                      which effects a scene calls for, and why
   likeness olat import photos/                 photographs, one light at a time: compare them with renders
+  likeness realis bake capture/                what the renders of a capture lack, to be added at run time
 
 Exit codes: 0 done, 1 a check said no, 2 usage, 3 a file cannot be used, 4 the program failed.
 Manual: docs/README.md)";
@@ -133,6 +134,7 @@ int main(int argc, char** argv) try {
   likeness::olat_check::add_check(olat, exit_code);
   likeness::olat_compare::add_compare(olat, exit_code);
   likeness::olat_view::add_view(olat, exit_code);
+  likeness::realis::add_realis(program, exit_code);
   program.footer(kFooter);  // last: a subcommand made after it would repeat it
 
   try {

@@ -1,0 +1,197 @@
+#include "realis/command.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <iostream>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "realis/bake_file.h"
+#include "realis/from_capture.h"
+#include "render/capture/files_of_capture.h"
+#include "render/files/files.h"
+#include "render/files/interrupt.h"
+#include "render/files/progress.h"
+#include "render/image/write.h"
+
+namespace likeness::realis {
+namespace {
+
+using files::UsageError;
+
+struct Request {
+  std::string capture, camera, variant, lobes = "auto", name = "bake", out, result = "realis";
+  int dominant = 0;
+  bool is_rgb = false, is_exact = false, is_float = false;
+  double floor = 0.4, seed = 1;
+};
+
+std::size_t camera_of(const capture::Capture& capture, const std::string& id) {
+  std::vector<std::string_view> names;
+  for (const capture::Camera& camera : capture.cameras) names.push_back(camera.id);
+  if (id.empty()) return 0;
+  const std::size_t at = capture::camera_of(capture, id);
+  if (at != capture::kAbsent) return at;
+  const std::string near = files::nearest_name(id, names.data(), names.size());
+  throw UsageError("--camera " + files::in_quotes(id) + " is not in the capture" +
+                   (near.empty() ? "" : "; did you mean " + files::in_quotes(near) + "?"));
+}
+
+std::size_t variant_of(const capture::Capture& capture, const std::string& id) {
+  const std::size_t at = id.empty() ? rendered_variant_of(capture) : capture::variant_of(capture, id);
+  if (at != capture::kAbsent) return at;
+  throw UsageError(id.empty() ? std::string("the capture has no renders; `likeness olat render` makes them")
+                              : "--variant " + files::in_quotes(id) + " is not in the capture");
+}
+
+BakeOptions options_of(const Request& request) {
+  BakeOptions options;
+  options.channels = request.is_rgb ? Channels::kRgb : Channels::kLuminance;
+  options.is_exact = request.is_exact;
+  options.floor = request.floor;
+  options.seed = static_cast<std::uint64_t>(request.seed);
+  options.dominant = static_cast<std::size_t>(request.dominant);
+  if (request.lobes != "auto") {
+    char* end = nullptr;
+    const double value = std::strtod(request.lobes.c_str(), &end);
+    if (*end != 0 || !(value >= 1 && value <= kMostLobes) || value != std::floor(value))
+      throw UsageError("--lobes " + files::in_quotes(request.lobes) + " is not `auto` or a whole number from 1 to " +
+                       std::to_string(kMostLobes));
+    options.lobes = static_cast<std::size_t>(value);
+  }
+  if (!(options.floor > 0 && options.floor <= 1))
+    throw UsageError("--floor = " + files::number_text(options.floor) + " is outside (0, 1]");
+  return options;
+}
+
+std::string fixed(double value, int digits) {
+  std::array<char, 64> text{};
+  std::snprintf(text.data(), text.size(), "%.*f", digits, value);
+  return text.data();
+}
+
+// Root mean square of photo - (render + residual) over samples that can be trusted, and of photo - render.
+std::pair<double, double> errors_of(const Subject& s, const Bake& bake) {
+  double plain = 0, baked = 0;
+  std::size_t count = 0;
+  std::vector<Residual> residuals;
+  for (const glm::dvec3& direction : s.to_lights) residuals.emplace_back(bake, direction);
+  for (std::size_t texel = 0; texel < s.texels(); ++texel)
+    for (std::size_t i = 0; i < s.lights.size(); ++i) {
+      const std::size_t at = s.samples_of(texel) + i;
+      if (!(s.weight[at] > 0)) continue;
+      const auto e = residuals[i].at(texel, static_cast<double>(s.cosine[at]));
+      for (std::size_t c = 0; c < 3; ++c) {
+        const double difference = static_cast<double>(s.photo[at][c]) - static_cast<double>(s.render[at][c]);
+        plain += difference * difference, baked += (difference - e[c]) * (difference - e[c]);
+      }
+      count += 3;
+    }
+  const auto n = static_cast<double>(std::max<std::size_t>(count, 1));
+  return {std::sqrt(plain / n), std::sqrt(baked / n)};
+}
+
+// Render + residual of every light, as a variant of the capture that the comparison tool shows.
+void write_results(capture::Capture& capture, const Subject& subject, const Bake& bake, const std::string& id) {
+  if (capture::variant_of(capture, id) == capture::kAbsent) {
+    capture.variants.push_back({id, "renders/{variant}/{camera}/{light}.exr"});
+    capture::write_capture(capture);
+  }
+  const capture::Variant& variant = capture.variants[capture::variant_of(capture, id)];
+  for (std::size_t i = 0; i < subject.lights.size(); ++i) {
+    if (files::interrupted()) throw files::Interrupted();
+    const Residual residual(bake, subject.to_lights[i]);
+    image::Picture picture(subject.width, subject.height);
+    for (std::size_t texel = 0; texel < subject.texels(); ++texel) {
+      const std::size_t at = subject.samples_of(texel) + i;
+      const auto e = residual.at(texel, static_cast<double>(subject.cosine[at]));
+      for (std::size_t c = 0; c < 3; ++c)
+        picture.rgb[3 * std::size_t{subject.pixels[texel]} + c] =
+            static_cast<float>(std::max(static_cast<double>(subject.render[at][c]) + e[c], 0.0));
+    }
+    image::write_exr(capture::render_file(capture, variant, subject.camera, subject.lights[i]), picture);
+  }
+}
+
+int run_bake(const Request& request) {
+  files::catch_interrupts();
+  const BakeOptions options = options_of(request);
+  capture::Capture capture = capture::read_capture(request.capture);
+  const std::size_t camera = camera_of(capture, request.camera), variant = variant_of(capture, request.variant);
+  if (!capture::is_id(request.name)) throw UsageError("--name " + files::in_quotes(request.name) + " cannot be a name");
+
+  files::Progress progress;
+  const auto goes_on = [&](double share, std::string_view what) {
+    progress.tell(what, share);
+    return !files::interrupted();
+  };
+  const auto begin = std::chrono::steady_clock::now();
+  const Subject subject = read_subject(capture, camera, renders_of_variant(capture, camera, variant), {}, goes_on);
+  const auto read = std::chrono::steady_clock::now();
+  StoredBake stored{bake(subject, options, goes_on), {}, subject.width, subject.height, subject.pixels};
+  const auto baked = std::chrono::steady_clock::now();
+  const auto seconds = [](auto a, auto b) { return std::chrono::duration<double>(b - a).count(); };
+  const Bake seen = request.is_float ? stored.bake : quantised(stored.bake);
+  const auto [plain, left] = errors_of(subject, seen);
+  stored.about = {capture.name, capture.cameras[camera].id, {}, {{"render_rms", plain}, {"realis_rms", left}}};
+  if (!stored.bake.ladder.empty())
+    stored.about.metrics.emplace_back("held_out_rms", stored.bake.ladder[stored.bake.chosen].held_out);
+  const std::filesystem::path folder =
+      request.out.empty() ? capture.root / "realis" / request.name : std::filesystem::path(request.out);
+  write_bake(folder, stored, request.is_float);
+  if (!request.result.empty()) write_results(capture, subject, seen, request.result);
+
+  std::cout << subject.texels() << " texels under " << subject.lights.size() << " lights: " << seen.basis.lobes.size()
+            << " lobes, " << (request.is_float ? 4 : 1) * bytes_of_texel(seen) << " bytes a texel\n"
+            << "photo - render            " << fixed(plain, 5) << " rms\n"
+            << "photo - (render + realis) " << fixed(left, 5) << " rms\n";
+  if (!stored.bake.ladder.empty()) {
+    std::cout << "lobes  held out (luminance rms)\n";
+    for (std::size_t i = 0; i < stored.bake.ladder.size(); ++i)
+      std::cout << (stored.bake.ladder[i].basis.lobes.size() < 100 ? "  " : " ")
+                << (stored.bake.ladder[i].basis.lobes.size() < 10 ? " " : "")
+                << stored.bake.ladder[i].basis.lobes.size() << "  " << fixed(stored.bake.ladder[i].held_out, 6)
+                << (i == stored.bake.chosen ? "  taken\n" : "\n");
+  }
+  std::cout << "read in " << fixed(seconds(begin, read), 1) << " s, baked in " << fixed(seconds(read, baked), 1)
+            << " s: " << (folder / "bake.json").string() << "\n";
+  return 0;
+}
+
+}  // namespace
+
+void add_realis(CLI::App& program, int& exit_code) {
+  CLI::App* realis = program.add_subcommand("realis", "Bake what renders lack of photographs, and give it back");
+  realis->require_subcommand(1);
+  CLI::App* bake = realis->add_subcommand("bake", "Bake the difference of photographs and renders of a capture");
+  auto request = std::make_shared<Request>();
+  bake->add_option("CAPTURE", request->capture, "folder with capture.json (likeness olat import)")->required();
+  bake->add_option("--camera", request->camera, "whose picture is the texture; default: the first");
+  bake->add_option("--variant", request->variant, "which renders; default: the first that there are");
+  bake->add_option("--lobes", request->lobes, "auto (by held-out lights), or how many")->capture_default_str();
+  bake->add_option("--dominant", request->dominant, "lobes that a texel keeps; 0: all")
+      ->check(CLI::Range(0, static_cast<int>(kMostLobes)))
+      ->capture_default_str();
+  bake->add_flag("--rgb", request->is_rgb, "a residual of each color instead of luminance: three times the bytes");
+  bake->add_flag("--exact", request->is_exact, "as many lobes as lights and nothing kept small: photographs come back");
+  bake->add_flag("--float", request->is_float, "coefficients as floats instead of 8 bits");
+  bake->add_option("--floor", request->floor, "least cosine that a residual is divided by")->capture_default_str();
+  bake->add_option("--seed", request->seed, "of the texels by which lobes are chosen")->capture_default_str();
+  bake->add_option("--name", request->name, "of the bake: CAPTURE/realis/NAME")->capture_default_str();
+  bake->add_option("--out", request->out, "folder of the bake instead");
+  bake->add_option("--result", request->result, "variant that render + realis is written to; empty: none")
+      ->capture_default_str();
+  bake->footer(R"(Examples
+  likeness olat render capture --from-normals      renders to compare with
+  likeness realis bake capture                     what they lack, in CAPTURE/realis/bake
+  likeness olat view capture                       photographs beside render + realis
+
+Exit codes: 0 done, 2 usage, 3 a file cannot be used, 4 the program failed.)");
+  bake->callback([request, &exit_code] { exit_code = run_bake(*request); });
+}
+
+}  // namespace likeness::realis
