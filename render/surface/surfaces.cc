@@ -29,7 +29,8 @@ glm::vec3 corner(const float* vertices, scene::Index index) {
 
 // A normal that the viewer is above of: a shading normal, or a mapped one, that turns away from a point that is seen is
 // bent back just so far.
-[[gnu::always_inline]] inline glm::vec3 facing(const glm::vec3& normal, const glm::vec3& to_view, const glm::vec3& geometric) {
+[[gnu::always_inline]] inline glm::vec3 facing(const glm::vec3& normal, const glm::vec3& to_view,
+                                               const glm::vec3& geometric) {
   constexpr float kLeast = 1e-3f;  // cosine
   const float cosine = glm::dot(normal, to_view);
   if (cosine >= kLeast) return normal;
