@@ -12,6 +12,7 @@
 #include "brdf/callisto.h"
 #include "fit/result/result.h"
 #include "render/capture/capture.h"
+#include "render/capture/sight.h"
 #include "render/image/picture.h"
 
 // What a camera's photographs under one light at a time say about the surface: a normal and a base color of each pixel, and
@@ -97,7 +98,7 @@ class Relighting {
  private:
   const capture::Capture& capture_;
   const Fit& fit_;
-  image::Picture positions_;  // without pixels: not needed
+  capture::Positions positions_;
 };
 
 }  // namespace likeness::capture_fit
