@@ -13,6 +13,7 @@
 #include "brdf/cost/command.h"
 #include "brdf/eval/command.h"
 #include "datasets_synthetic/command.h"
+#include "fit/capture/command.h"
 #include "fit/command.h"
 #include "fit/measured/command.h"
 #include "fit/slice/command.h"
@@ -117,7 +118,7 @@ int main(int argc, char** argv) try {
   CLI::App program{"Likeness fits shading models to measured materials, and proves how near they come.", "likeness"};
   program.set_version_flag("--version", "likeness " LIKENESS_VERSION);
   program.require_subcommand(1);
-  likeness::fit::add_fit(program, exit_code);
+  likeness::capture_fit::add_capture(likeness::fit::add_fit(program, exit_code), exit_code);
   likeness::measured::add_convert(program, exit_code);
   likeness::datasets_synthetic::add_make(program, exit_code);
   likeness::eval::add_eval(program, exit_code);

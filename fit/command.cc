@@ -144,7 +144,7 @@ std::string model_list() {
 
 }  // namespace
 
-void add_fit(CLI::App& program, int& exit_code) {
+CLI::App& add_fit(CLI::App& program, int& exit_code) {
   const auto o = std::make_shared<FitOptions>();
   CLI::App* app = program.add_subcommand(
       "fit",
@@ -152,7 +152,7 @@ void add_fit(CLI::App& program, int& exit_code) {
       "Fits the standard BRDF slice of each file (MERL .binary, NVIDIA .mbsdf, RGL .bsdf, CSV), then writes a\n"
       "report to look at, a material file to render with, and all numbers as JSON. A folder is a batch: it can\n"
       "be interrupted at any moment and goes on where it was when the same command is given again.");
-  app->add_option("FILE", o->paths, "measured materials, or folders of them")->required();
+  app->add_option("FILE", o->paths, "measured materials, or folders of them");
   app->add_option("--model", o->fit.model, "model to fit: " + model_list())->capture_default_str();
   app->add_option("--tier", o->tier,
                   "parameters of Callisto to fit: base (artists), advanced (+ tints, second lobe), full (all)")
@@ -177,7 +177,19 @@ void add_fit(CLI::App& program, int& exit_code) {
       "  likeness fit paint.mbsdf --on table --tier advanced --json\n\n"
       "Exit codes: 0 done, 2 usage, 3 a file could not be used (a batch goes on past it), 130 interrupted.\n"
       "What the numbers mean: docs/fit.md");
-  app->callback([o, &exit_code] { exit_code = run_fit(*o); });
+  app->callback([o, app, &exit_code] {
+    if (!app->get_subcommands().empty()) {  // the photographs of a capture, which have a command of their own
+      if (!o->paths.empty())
+        throw files::UsageError(o->paths.front() +
+                                ": measured materials and a capture are fitted by two commands; a folder "
+                                "that is called like the subcommand is ./" +
+                                app->get_subcommands().front()->get_name());
+      return;
+    }
+    if (o->paths.empty()) throw files::UsageError("FILE is required: a measured material, or a folder of them");
+    exit_code = run_fit(*o);
+  });
+  return *app;
 }
 
 }  // namespace likeness::fit

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <string>
 
@@ -328,6 +329,16 @@ Fit fit_capture(const capture::Capture& capture, std::size_t camera, const Optio
     }
   }
   fit.material.base_color = median_color(fit.base_colors);
+  const auto& median = fit.material.base_color;
+  for (int c = 0; c < 3; ++c)
+    fit.estimates.push_back({.name = "base_color",
+                             .channel = c,
+                             .value = c == 0   ? median.r
+                                      : c == 1 ? median.g
+                                               : median.b,
+                             .sigma = std::numeric_limits<double>::quiet_NaN(),
+                             .fitted = true,
+                             .why = {}});
   describe(fit);
   return fit;
 }
