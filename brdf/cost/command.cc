@@ -73,7 +73,7 @@ CLI::App& add_cost(CLI::App& program, int& exit_code) {
       "Exit codes: 0 done, 2 usage, 4 the results cannot be written, 130 interrupted.");
   evaluators->add_option(
       "--family", request->options.families,
-      "Only these: diffuse, fresnel, hair, diffusion_inverse, diffusion_profile, normal_length, tonemap");
+      "Only these: diffuse, fresnel, hair, diffusion_inverse, diffusion_profile, normal_length, tonemap, realis");
   evaluators->add_option("--repeats", request->options.repeats, "Readings of each form; the median of them counts")
       ->check(CLI::Range(1, 10000))
       ->capture_default_str();

@@ -83,5 +83,6 @@ Family diffusion_inverse_family();
 Family diffusion_profile_family();
 Family normal_length_family();
 Family tonemap_family();
+Family realis_family();
 
 }  // namespace likeness::cost

@@ -5,8 +5,8 @@
 namespace likeness::cost {
 
 std::vector<Family> families() {
-  return {diffuse_family(),           fresnel_family(),       hair_family(),   diffusion_inverse_family(),
-          diffusion_profile_family(), normal_length_family(), tonemap_family()};
+  return {diffuse_family(),           fresnel_family(),       hair_family(),    diffusion_inverse_family(),
+          diffusion_profile_family(), normal_length_family(), tonemap_family(), realis_family()};
 }
 
 double* Inputs::find(std::string_view name, int& channels) {

@@ -209,4 +209,33 @@ Family tonemap_family() {
   return family;
 }
 
+Family realis_family() {
+  Family family;
+  family.name = "realis";
+  family.title = "Realis: a lobe of a baked residual";
+  family.text =
+      "One windowed spherical Gaussian with its stored coefficient: with the exponential, and with the fourth power of "
+      "a "
+      "polynomial in its place. A texel has eight. What rounding a coefficient to a byte costs is 4e-3.";
+  family.distribution =
+      "1 - cos uniform over the lobe's support, sharpness logarithmic in [2.5, 100], bytes uniform from 1 to 255";
+  family.draw_names = {"x", "z", "sharpness", "byte"};
+  family.draw = [](Random& random, double* draw) {
+    draw[2] = 2.5 * std::pow(40.0, random.uniform());
+    const double versine = random.uniform() * std::log(100.0) / draw[2];
+    draw[0] = std::sqrt(versine * (2 - versine));
+    draw[1] = 1 - versine;
+    draw[3] = std::floor(random.uniform(1, 256));
+  };
+  const auto set = [](const double* d, Inputs& in) {
+    in.set("x", d[0]), in.set("z", d[1]), in.set("sharpness", d[2]), in.set("byte", d[3]);
+  };
+  for (const char* degree : {"3", "5", "7"})
+    family.rungs.push_back({.label = "polynomial of degree " + std::string(degree),
+                            .evaluator = "realis_lobe_" + std::string(degree),
+                            .inputs = set});
+  family.rungs.push_back({.label = "exponential", .evaluator = "realis_lobe", .inputs = set, .is_reference = true});
+  return family;
+}
+
 }  // namespace likeness::cost

@@ -43,10 +43,17 @@ struct RealisFade {
   // The residual's weight, in [0, 1]: 1 where all properties are those of the bake, 0 where one is not at all.
   template <Scalar S>
   S weight(const RealisProperties<S>& baked, const RealisProperties<S>& now) const {
-    const S color = smoothstep(base_color.low, base_color.high, base_color_distance(baked.base_color, now.base_color));
-    const S difference = larger(S(baked.roughness - now.roughness), S(now.roughness - baked.roughness));
+    return weight(baked.base_color, baked.roughness, now.base_color, now.roughness,
+                  versine_between(baked.normal, now.normal));
+  }
+  // The same with 1 - cos of the angle between the normals.
+  template <Scalar S>
+  S weight(const Rgb<S>& baked_color, const S& baked_roughness, const Rgb<S>& color_now, const S& roughness_now,
+           const S& versine) const {
+    const S color = smoothstep(base_color.low, base_color.high, base_color_distance(baked_color, color_now));
+    const S difference = larger(S(baked_roughness - roughness_now), S(roughness_now - baked_roughness));
     const S rough = smoothstep(roughness.low, roughness.high, difference);
-    const S turned = smoothstep(normal.low, normal.high, versine_between(baked.normal, now.normal));
+    const S turned = smoothstep(normal.low, normal.high, versine);
     return (S(1) - color) * (S(1) - rough) * (S(1) - turned);
   }
 };

@@ -36,7 +36,7 @@ inline constexpr std::array<double, 7> kDecay<7>{-0.00029823027919589471, 0.0028
 
 // WindowedGaussian by t = sharpness (1 - cos) / ln 100 >= 0, without an exponential: (1 - t)^2 (1 + 2 t) p(t)^4, for
 // exp(-t ln 100) W(1 - t). t above 1 counts as 1; the value is then 0. It is 1 at t = 0.
-// Error   relative to the value: 2.8e-3 of degree 3, 7.1e-6 of 5, 1.0e-8 of 7, and 8e-7 of float's own. Rounding a
+// Error   relative to the value: 2.8e-3 of degree 3, 7.1e-6 of 5, 1.0e-8 of 7, and 2e-6 of float's own. Rounding a
 //         coefficient to eight bits costs 4e-3.
 template <int kDegree = 5, Scalar S>
 S windowed_decay(const S& beyond) {

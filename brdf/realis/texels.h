@@ -106,8 +106,9 @@ using Widest = xsimd::make_sized_batch_t<float, 4>;
 
 // residual() of texel i towards (x[i], y[i], z[i]), written to out[channel][i], for i < count: unit vectors in model space.
 // No alignment is needed, and nothing is read or written past `count`.
-// Error   against residual() in float, 4 ulp of the sum of the lobes' magnitudes; so much lies between instruction sets
-//         too, of which only some round a multiply-add once. (Not of the sum itself, whose terms have both signs.)
+// Error   against residual() in float, 4 ulp of the sum of the coefficients' magnitudes; so much may lie between
+//         instruction sets too, of which only some round a multiply-add once. Not of the residual itself: its terms have
+//         both signs, and a lobe's own digits end where it does.
 template <class B = realis_texels::Widest, std::size_t kChannels>
 void residuals(const RealisLobes& lobes, const RealisTexel<kChannels>* texels, const float* x, const float* y,
                const float* z, const std::array<float*, kChannels>& out, std::size_t count) {

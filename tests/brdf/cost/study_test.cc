@@ -126,6 +126,9 @@ TEST(Study, LaddersBecomeMoreExact) {
   EXPECT_LT(in("normal_length", "two steps"), 1e-3 * in("normal_length", "one step of Newton's method"));
   EXPECT_LT(in("tonemap", "table"), 1e-4);  // 1.34e-4 is the worst
   EXPECT_GT(in("tonemap", "table"), 1e-6);
+  EXPECT_LT(in("realis", "polynomial of degree 3"), 2.8e-3);  // what windowed_decay() states
+  EXPECT_LT(in("realis", "polynomial of degree 5"), 7.1e-6);
+  EXPECT_LT(in("realis", "polynomial of degree 7"), 1.1e-8);
   EXPECT_LT(in("diffusion_inverse", "Halley, 4 steps"), in("diffusion_inverse", "Halley, 1 step"));
 }
 
