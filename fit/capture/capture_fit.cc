@@ -25,6 +25,7 @@ double since(Clock::time_point from) { return std::chrono::duration<double>(Cloc
 
 constexpr std::size_t kCurvePixels = 4096;  // that tell how the surface departs from Lambert
 constexpr std::size_t kBlock = 2048;        // pixels between two questions, whatever the number of threads
+constexpr double kNoTrust = 10 * std::numbers::pi / 180;  // standard error of a normal that is not trusted at all [rad]
 constexpr double kSameLight = 0.25 * std::numbers::pi / 180;  // [rad]
 // Base colors of surfaces: a capture whose colors are outside states its light in another unit than a surface knows.
 constexpr double kDarkest = 0.1, kBrightest = 1, kUsual = 0.5, kBrightShare = 0.98;
@@ -204,8 +205,7 @@ struct Fitter {
   void write(std::uint32_t pixel, const NormalOfPixel& n, const Colored& colored) const {
     const std::size_t at = 3 * static_cast<std::size_t>(pixel);
     const bool is_known = n.normal != glm::dvec3(0);
-    const double sure =
-        fit.normals_from == NormalSource::kGiven ? 1.0 : std::clamp(1 - n.sigma / (std::numbers::pi / 4), 0.0, 1.0);
+    const double sure = fit.normals_from == NormalSource::kGiven ? 1.0 : std::clamp(1 - n.sigma / kNoTrust, 0.0, 1.0);
     const std::array<double, 3> trust{colored.weight / static_cast<double>(std::max<std::size_t>(fit.counts.lights, 1)),
                                       is_known ? sure : 0,
                                       colored.is_known ? std::clamp(1 - colored.error, 0.0, 1.0) : 0};

@@ -61,7 +61,7 @@ struct Fit {
   NormalSource normals_from = NormalSource::kGiven;
   image::Picture normals;      // world, unit; (0, 0, 0): not known
   image::Picture base_colors;  // reflectance of the diffuse part, linear Rec. 709, >= 0; 0 where nothing is known
-  // [0, 1] each. R: sum of weights over the number of lights. G: 1 - the normal's standard error over 45 degrees (0 without
+  // [0, 1] each. R: sum of weights over the number of lights. G: 1 - the normal's standard error over 10 degrees (0 without
   // one, 1 for normals that are given). B: 1 - the relative standard error of the color, at least 0.
   image::Picture confidence;
   brdf::Callisto<double> material;  // shared; base_color is the median over the pixels

@@ -162,7 +162,8 @@ std::string report_html(const capture::Capture& capture, const Fit& fit, const s
                figure(channel(fit.confidence, 1),
                       fit.normals_from == NormalSource::kGiven
                           ? std::string("Trust in the normal: given, so 1 wherever there is one")
-                          : std::string("Trust in the normal. White: its standard error is 0; black: 45 degrees"))}) +
+                          : std::string(
+                                "Trust in the normal. White: its standard error is 0; black: 10 degrees or more"))}) +
       "</section>\n<section id=\"photos\"><h2>Photographs and the fit</h2>\n<p>No shadow is cast and no light is "
       "scattered twice in the fit, so those are what the difference shows first.</p>\n";
   for (const Shown& s : shown) {

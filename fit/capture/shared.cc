@@ -29,6 +29,7 @@ constexpr double kLeastScale = 1e-4;  // of the level: photos are no truer than 
 constexpr double kLeastGain = 0.01;   // of the loss, for a group to be taken; and by what a parameter must move it
 constexpr double kLeastLoss = 1e-6;   // q = 1e-6: a thousandth of the scale
 constexpr double kWideSigma = 0.25;   // of the typical range: beyond it the data do not determine a parameter
+constexpr std::size_t kFew = 400;     // faces that choose between starts and groups
 constexpr std::size_t kGrain = 16;    // faces that are summed in order, so that threads do not change the numbers
 
 std::string_view name_of(std::size_t variable) {
@@ -319,12 +320,13 @@ std::vector<double> sigmas_of(const std::vector<Face>& faces, const Search::Foun
 // By how much of itself the loss rises where a variable moves through its typical range.
 double influence(const std::vector<Face>& faces, const Search::Found& found, std::size_t variable, double scale) {
   const auto& typical = row_of(variable).typical;
+  const double here = sums_of(faces, found.material, scale, found.groups, {}).loss;
   double most = 0;
   for (const double t : {0.0, 0.5, 1.0}) {
     Callisto moved = found.material;
     member(moved, variable) = typical.low + t * (typical.high - typical.low);
     const double loss = sums_of(faces, moved, scale, found.groups, {}).loss;
-    most = std::max(most, (loss - found.loss) / std::max(found.loss, kLeastLoss));
+    most = std::max(most, (loss - here) / std::max(here, kLeastLoss));
   }
   return most;
 }
@@ -338,7 +340,10 @@ SharedFit fit_shared(const std::vector<Face>& faces, const std::function<bool(do
   const Sums lambert = sums_of(faces, neutral(), out.scale, kNoGroup, {});
   out.lambert_loss = lambert.loss;
   out.lambert_rms = std::sqrt(lambert.squares / std::max(lambert.weights, 1e-300));
-  Search::Found found = grown(search, lambert.loss);
+  std::vector<Face> few;
+  const std::size_t stride = std::max<std::size_t>(1, faces.size() / kFew);
+  for (std::size_t i = 0; i < faces.size(); i += stride) few.push_back(faces[i]);
+  Search::Found found = grown(Search{few, out.scale, step}, sums_of(few, neutral(), out.scale, kNoGroup, {}).loss);
   std::array<std::string, kSharedParameters> why;
   std::vector<std::size_t> held;
   std::vector<double> sigma;
@@ -351,7 +356,7 @@ SharedFit fit_shared(const std::vector<Face>& faces, const std::function<bool(do
       const std::size_t v = found.variables[i];
       const brdf::Parameter& row = row_of(v);
       const bool is_wide = sigma[i] > kWideSigma * (row.typical.high - row.typical.low);
-      const bool is_free = influence(faces, found, v, out.scale) < kLeastGain;
+      const bool is_free = influence(few, found, v, out.scale) < kLeastGain;
       if (!is_wide && !is_free) continue;
       why[v] = is_wide ? "its standard deviation of " + files::number_text(std::round(sigma[i] * 1e3) / 1e3) +
                              " is beyond a quarter of its usual range"
