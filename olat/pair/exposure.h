@@ -1,8 +1,10 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string_view>
 
 #include "render/image/picture.h"
 
@@ -12,6 +14,15 @@ namespace likeness::olat_pair {
 struct Exposures {
   double percentile = 0;  // puts the 99th percentile of luminance on 1, the reference white [stop]
   double average = 0;     // puts the mean of log luminance on middle grey, 0.18 [stop]
+};
+
+// What the page says of them.
+struct ExposureRow {
+  std::string_view id, word, text;
+};
+inline constexpr std::array kExposures{
+    ExposureRow{"percentile", "auto", "99 % of the photo's lit pixels are at most at the reference white"},
+    ExposureRow{"average", "auto, log average", "the photo's mean of log luminance is at middle grey"},
 };
 
 // Of linear Rec. 709 and its pixels' bits of capture::Flaw (or none), to a tenth of a stop, within [-30, 30]. Pixels count

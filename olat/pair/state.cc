@@ -266,6 +266,11 @@ State state_of(std::string_view text) {
   return state;
 }
 
+bool has_field(std::string_view text, std::string_view name) {
+  const auto pairs = pairs_in(text);
+  return std::any_of(pairs.begin(), pairs.end(), [&](const auto& pair) { return pair.first == name; });
+}
+
 std::string pipeline_of(const State& state) {
   std::string out = "lin_rec709_scene";
   for (const Field& field : fields()) {

@@ -93,6 +93,9 @@ std::string text_of(const State& state);
 // one, a number outside its range, a key twice.
 State state_of(std::string_view text);
 
+// Whether the text has that key, if only with its default. Throws as state_of does.
+bool has_field(std::string_view text, std::string_view name);
+
 // The text of one field, "" for the default; what the text form and the pages hold.
 std::string value_of(const State& state, const Field& field);
 

@@ -5,6 +5,7 @@
 #include "brdf/lighting/zone.h"
 #include "olat/metric/metric.h"
 #include "olat/pair/actions.h"
+#include "olat/pair/exposure.h"
 #include "olat/pair/picture.h"
 #include "olat/pair/state.h"
 #include "render/image/flip.h"
@@ -73,6 +74,8 @@ std::string tables_json() {
   for (const Action& a : kActions)
     out["actions"].push_back(
         {{"id", text(a.id)}, {"group", text(a.group)}, {"keys", text(a.keys)}, {"text", text(a.text)}});
+  for (const ExposureRow& row : kExposures)
+    out["exposures"][text(row.id)] = {{"word", text(row.word)}, {"text", text(row.text)}};
   out["zones"] = kZoneColors;
   out["grey"] = brdf::Zones::kMiddleGrey;
   out["grey_zone"] = brdf::Zones::kGreyZone;

@@ -43,14 +43,15 @@ void add_address(CLI::App& app, const std::string& name, std::optional<std::stri
       ->expected(0, 1);
 }
 
-// A state's text, or @FILE with it.
-olat_pair::State state_of(const std::string& text) {
+// A state's text, or of @FILE what is in it.
+std::string state_text(const std::string& text) {
   constexpr std::size_t kMostBytes = 1 << 16;
-  return olat_pair::state_of(text.starts_with('@') ? files::read_whole(text.substr(1), kMostBytes) : text);
+  return text.starts_with('@') ? files::read_whole(text.substr(1), kMostBytes) : text;
 }
 
 int view(const Request& request) {
-  const olat_pair::State state = state_of(request.state);
+  const std::string wanted = state_text(request.state);
+  const olat_pair::State state = olat_pair::state_of(wanted);
   capture::Capture capture = capture::read_capture(request.capture);
   olat_pair::place_of(capture, state);
   ViewOptions options;
@@ -65,7 +66,10 @@ int view(const Request& request) {
   options.with_scores = !request.no_scores;
   Answers answers(std::move(capture), options);
   Server server(answers, request.port);
-  const std::string address = server.address(olat_pair::text_of(state));
+  std::string text = olat_pair::text_of(state);
+  // An address without an exposure is opened with one for its photo.
+  if (state.ev == 0 && olat_pair::has_field(wanted, "ev")) text += text.empty() ? "ev=0" : "&ev=0";
+  const std::string address = server.address(text);
   if (request.json)
     std::cout << "{\"address\": \"" << address << "\", \"port\": " << server.port()
               << (tev ? ", \"tev_port\": " + std::to_string(tev->port()) : "") << "}" << std::endl;
@@ -105,7 +109,7 @@ int send_pair(const Request& request, const capture::Capture& capture, const ola
 }
 
 int picture(const Request& request) {
-  const olat_pair::State state = state_of(request.state);
+  const olat_pair::State state = olat_pair::state_of(state_text(request.state));
   const capture::Capture capture = capture::read_capture(request.capture);
   const olat_pair::Pair pair = olat_pair::load_pair(capture, state);
   if (pair.width() == 0)

@@ -10,16 +10,19 @@
 #include <nlohmann/json.hpp>
 
 #include "olat/metric/metric.h"
+#include "olat/pair/exposure.h"
 #include "olat/pair/picture.h"
 #include "olat/pair/tables.h"
 #include "olat/view/answers.h"
 #include "olat/view/half_picture.h"
 #include "olat/view/page.h"
+#include "olat/view/report_pair.h"
 #include "render/capture/pixels.h"
 #include "render/files/files.h"
 #include "render/files/interrupt.h"
 #include "render/files/progress.h"
 #include "render/page/html.h"
+#include "render/view/view.h"
 
 namespace likeness::olat_view {
 
@@ -37,13 +40,13 @@ struct Compared {
   int x = 0, y = 0;  // of the largest error
 };
 
-// High bytes of all halves, then low ones, deflated: neighbours are alike.
-std::string packed(const HalfPicture& picture) {
-  const std::size_t count = picture.rgba.size();
+// High bytes of all halves, then low ones, deflated: neighbours are alike. Every `step`-th number is taken.
+std::string packed(const HalfPicture& picture, std::size_t step = 1) {
+  const std::size_t count = picture.rgba.size() / step;
   std::string planes(2 * count, '\0');
   for (std::size_t i = 0; i < count; ++i) {
-    planes[i] = static_cast<char>(picture.rgba[i] >> 8);
-    planes[count + i] = static_cast<char>(picture.rgba[i] & 255);
+    planes[i] = static_cast<char>(picture.rgba[step * i] >> 8);
+    planes[count + i] = static_cast<char>(picture.rgba[step * i] & 255);
   }
   uLongf size = compressBound(planes.size());
   std::string out(size, '\0');
@@ -52,15 +55,6 @@ std::string packed(const HalfPicture& picture) {
     throw std::runtime_error("report: zlib failed");
   out.resize(size);
   return page::base64(out);
-}
-
-HalfPicture cropped(const HalfPicture& from, int x, int y, int width, int height) {
-  HalfPicture out{width, height, {}};
-  for (int row = y; row < y + height; ++row) {
-    const auto at = from.rgba.begin() + 4 * (static_cast<std::ptrdiff_t>(row) * from.width + x);
-    out.rgba.insert(out.rgba.end(), at, at + 4 * width);
-  }
-  return out;
 }
 
 Compared compare(const State& state, const Pair& pair) {
@@ -97,6 +91,18 @@ std::string replaced(std::string text, std::string_view mark, std::string_view w
 // "1 camera", "3 cameras".
 std::string counted(std::size_t count, std::string_view what) {
   return std::to_string(count) + " " + std::string(what) + (count == 1 ? "" : "s");
+}
+
+std::string signed_stops(double stops) {
+  const std::string digits = page::fixed(std::abs(stops), 2);
+  return (stops >= 0 || digits == "0.00" ? "+" : "−") + digits;
+}
+
+Json exposures_json(const Pair& pair) {
+  Json out = Json::object();
+  if (const auto found = olat_pair::exposures_of(pair.photo, pair.flaws, static_cast<double>(pair.noise)))
+    out = {{"percentile", found->percentile}, {"average", found->average}};
+  return out;
 }
 
 // In a script element nothing may look like its end.
@@ -177,42 +183,71 @@ ReportSummary write_report(const capture::Capture& capture, const ReportOptions&
   data["capture"]["variant"] = capture.variants[first.variant].id;
   for (Json& photos : data["capture"]["photos"]) photos = std::string(lights, '0');
 
+  // How the page opens: as the capture says, or with an exposure for the worst photo.
+  const Pair worst = olat_pair::load_pair(capture, state_at(compared[0].camera, compared[0].light));
+  state.ev = capture.pipeline.ev;
+  if (std::find(view::kOwnViews.begin(), view::kOwnViews.end(), capture.pipeline.view) != view::kOwnViews.end())
+    state.view = capture.pipeline.view;
+  if (const auto found = olat_pair::exposures_of(worst.photo, worst.flaws, static_cast<double>(worst.noise));
+      state.ev == 0 && found) {
+    state.ev = found->percentile;
+    data["capture"]["pipeline"]["by"] = "percentile";
+  }
+  data["capture"]["pipeline"]["ev"] = state.ev;
+  State matched = state_at(compared[0].camera, compared[0].light);
+  matched.match = olat_pair::Match::kCapture;
+  const std::array<double, 3> capture_gain = olat_pair::gain_of(capture, matched, worst);
+
+  std::string cards;
   std::string table =
-      "<table><tr><th>camera</th><th>light</th><th>p95</th><th>median</th><th>mean</th><th>pixels</th></tr>";
+      "<div "
+      "class=\"wide\"><table><tr><th>camera</th><th>light</th><th>p95</th><th>median</th><th>mean</th><th>pixels</th></"
+      "tr>";
   const std::size_t held = std::min(compared.size(), static_cast<std::size_t>(options.pairs));
   for (std::size_t k = 0; k < held; ++k) {
     const Compared& one = compared[k];
     const State at = state_at(one.camera, one.light);
     const Pair pair = olat_pair::load_pair(capture, at);
-    const int width = std::min(pair.width(), options.side), height = std::min(pair.height(), options.side);
-    const int x = std::clamp(one.x - width / 2, 0, pair.width() - width),
-              y = std::clamp(one.y - height / 2, 0, pair.height() - height);
+    Crop crop{0, 0, std::min(pair.width(), options.side), std::min(pair.height(), options.side)};
+    crop.x = std::clamp(one.x - crop.width / 2, 0, pair.width() - crop.width);
+    crop.y = std::clamp(one.y - crop.height / 2, 0, pair.height() - crop.height);
+    Json flips;
+    for (const char* id : {"hdr_flip", "flip"}) {
+      State shown = at;
+      shown.metric = id;
+      const std::vector<float> map = flip_inside(shown, pair, crop);
+      flips[id] = {{"state", olat_pair::text_of(shown)}, {"map", packed(half_of_map(crop.width, crop.height, map), 4)}};
+      if (id == std::string_view("flip")) cards += pair_card(at, pair, crop, map, one.summary);
+    }
     const auto gain = olat_pair::match_gain(pair, false), gains = olat_pair::match_gain(pair, true);
     Json frame = Json::parse(answers.answer("/api/frame", {{"state", olat_pair::text_of(at)}}).body);
     // As for the root: of a path of this machine the name is left.
     if (const std::filesystem::path photo(frame.value("photo", "")); photo.is_absolute())
       frame["photo"] = photo.filename().string();
-    data["pairs"].push_back({{"camera", at.camera},
-                             {"light", at.light},
-                             {"width", width},
-                             {"height", height},
-                             {"noise", pair.noise},
-                             {"gains", {{"none", {1, 1, 1}}, {"light", gain}, {"channel", gains}}},
-                             {"frame", frame},
-                             {"crop", {x, y}},
-                             {"photo", packed(cropped(half_of(pair.photo, pair.flaws), x, y, width, height))},
-                             {"render", packed(cropped(half_of(pair.render, {}), x, y, width, height))}});
+    data["pairs"].push_back(
+        {{"camera", at.camera},
+         {"light", at.light},
+         {"width", crop.width},
+         {"height", crop.height},
+         {"noise", pair.noise},
+         {"gains", {{"none", {1, 1, 1}}, {"capture", capture_gain}, {"light", gain}, {"channel", gains}}},
+         {"exposures", exposures_json(pair)},
+         {"frame", frame},
+         {"crop", {crop.x, crop.y}},
+         {"flips", flips},
+         {"photo", packed(cropped(half_of(pair.photo, pair.flaws), crop))},
+         {"render", packed(cropped(half_of(pair.render, {}), crop))}});
     std::string photos = data["capture"]["photos"][one.camera];
     photos[one.light] = '1';
     data["capture"]["photos"][one.camera] = photos;
-    data["capture"]["cameras"][one.camera]["width"] = width;
-    data["capture"]["cameras"][one.camera]["height"] = height;
+    data["capture"]["cameras"][one.camera]["width"] = crop.width;
+    data["capture"]["cameras"][one.camera]["height"] = crop.height;
     const auto cell = [](double v) { return page::element("td", page::number(v)); };
     table += "<tr>" + page::element("td", at.camera) + page::element("td", at.light) + cell(one.summary.p95) +
              cell(one.summary.median) + cell(one.summary.mean) +
              page::element("td", std::to_string(one.summary.pixels)) + "</tr>";
   }
-  table += "</table>";
+  table += "</table></div>";
 
   const std::string title = (capture.name.empty() ? "Capture" : capture.name) + ": photographs against renders";
   std::string intro = page::element("h1", title);
@@ -223,7 +258,15 @@ ReportSummary write_report(const capture::Capture& capture, const ReportOptions&
                         std::string(metric::row_of(metric).text) + ". The worst " + std::to_string(held) +
                         " are below, as light, so that exposure and view can still be changed. Space flips, W wipes, D "
                         "subtracts, the arrows go on, ? lists the keys.") +
-           "</p>" + table;
+           "</p>" +
+           page::element("p", "The renders are compared as they are. All of the capture's renders by " +
+                                  signed_stops(std::log2(capture_gain[1])) +
+                                  " stops would come nearest to its photographs (median of at most 16 pairs). Small "
+                                  "pictures and FLIP: EV " +
+                                  signed_stops(state.ev) +
+                                  (data["capture"]["pipeline"].contains("by") ? ", found for the worst photo" : "") +
+                                  ", view " + state.view + ".") +
+           table + "<div class=\"pairs\">" + cards + "</div>";
   if (!capture.citation.empty() || !capture.license.empty())
     intro +=
         page::element("p", "Data: " + capture.citation + (capture.license.empty() ? "" : " (" + capture.license + ")"));

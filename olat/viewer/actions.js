@@ -70,6 +70,7 @@ export function makeActions(app) {
     },
     worst: () => app.gotoWorst(),
     flip: () => app.change({ mode: app.state.mode === 'photo' ? 'render' : 'photo' }),
+    hold: key => app.hold(key),
     auto_flip: () => app.autoFlip(),
     wipe: mode('wipe'),
     side: mode('side'),
@@ -86,11 +87,8 @@ export function makeActions(app) {
     ev_up: ev(1),
     ev_down: ev(-1),
     ev_job: () => app.change({ ev: app.capture.pipeline.ev }),
-    ev_auto: () => {
-      const found = app.stage.autoExposure(tables.grey);
-      if (found === null) app.say('there is no picture to expose for');
-      else app.change({ ev: found });
-    },
+    ev_percentile: () => app.expose('percentile'),
+    ev_auto: () => app.expose('average'),
     match_next: () => cycle('match'),
     view_next: () => cycle('view'),
     view_previous: () => cycle('view', -1),
@@ -109,9 +107,11 @@ export function makeActions(app) {
     zoom_in: () => app.stage.zoomBy(1.25),
     zoom_out: () => app.stage.zoomBy(0.8),
     pin: () => app.stage.pin(),
+    region: () => app.region.begin(),
+    region_copy: () => app.copy(app.region.text(), 'there is no region; Shift and drag draws one'),
     bookmark_recall: key => app.recall(key),
     bookmark_store: key => app.store(key.replace('Ctrl+', '')),
-    copy_command: () => app.copyCommand(),
+    copy_command: () => app.copy(commandOf(app)),
     save_view: () => app.saveView(),
     panels: () => app.togglePanels(),
     help: () => app.help(),

@@ -5,7 +5,7 @@ import { textOf } from './state.js';
 const kMostBytes = 400e6, kAhead = 2, kParallel = 1, kPartly = 120;  // one, so that the server has a thread left for what is asked for now
 
 // From the program that serves the page. A source answers: capture(), tables(), shader(), pixels(), gain(), frame(),
-// scores().
+// exposure(), scores().
 export class ServerSource {
   constructor(token) {
     this.token = token;
@@ -32,6 +32,7 @@ export class ServerSource {
   }
   gain(where) { return this.json('/api/gain', { state: where }); }
   frame(where) { return this.json('/api/frame', { state: where }); }
+  exposure(where) { return this.json('/api/exposure', { state: where }); }
   scores(metric, variant, camera) { return this.json('/api/scores', { metric, variant, camera }); }
 }
 

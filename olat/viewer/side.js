@@ -24,6 +24,11 @@ export function plain(value) {
   return size >= 100 ? value.toFixed(0) : size >= 1 ? value.toFixed(2) : size >= 1e-3 || size === 0 ? value.toFixed(4) : value.toExponential(1);
 }
 
+// The metric "stops" of one value (olat/metric/formulas.h).
+export function stopsBetween(photo, render, noise) {
+  return Math.log2(Math.max(photo, 0) + noise) - Math.log2(Math.max(render, 0) + noise);
+}
+
 export function showProbe(table, values, ev) {
   table.replaceChildren();
   if (!values) {
@@ -42,8 +47,7 @@ export function showProbe(table, values, ev) {
     else table.append(row(kind, '–', '–', '–', '–'));
   }
   if (values.photo && values.render) {
-    const lit = v => Math.max(v, 0), n = values.noise;
-    table.append(row('log₂ ratio', ...values.photo.map((p, c) => (Math.log2(lit(p) + n) - Math.log2(lit(values.render[c]) + n)).toFixed(2)), ''));
+    table.append(row('log₂ ratio', ...values.photo.map((p, c) => stopsBetween(p, values.render[c], values.noise).toFixed(2)), ''));
   }
   const flaws = [[1, 'clipped'], [2, 'black'], [4, 'not finite'], [8, 'masked']].filter(([bit]) => values.flaws & bit).map(([, name]) => name);
   const remarks = [values.mean > 1 ? `mean of ${values.mean} × ${values.mean} pixels` : '', flaws.join(', ')].filter(Boolean).join('; ');

@@ -1,6 +1,6 @@
 // The middle of the page: one canvas, its panes, and what the pointer does on it.
 import { metricNamed } from './tables.js';
-import { floatOfHalf, flawsAt, kMasked, luminanceAt } from './half.js';
+import { floatOfHalf, flawsAt } from './half.js';
 
 const kLate = 400;  // [ms]
 
@@ -15,7 +15,7 @@ export class Stage {
     new ResizeObserver(() => app.redraw()).observe(canvas);
     canvas.addEventListener('pointerdown', event => this.down(event));
     canvas.addEventListener('pointermove', event => this.move(event));
-    canvas.addEventListener('pointerup', () => { this.drag = null; });
+    for (const end of ['pointerup', 'pointercancel']) canvas.addEventListener(end, () => { this.drag = null; });
     canvas.addEventListener('pointerleave', () => { if (!this.drag) { this.pointer = null; app.probe(); } });
     canvas.addEventListener('wheel', event => this.wheel(event), { passive: false });
     handle.addEventListener('pointerdown', event => { this.splitting = true; handle.setPointerCapture(event.pointerId); event.preventDefault(); });
@@ -108,6 +108,7 @@ export class Stage {
       this.handle.style.left = Math.min(this.canvas.clientWidth, Math.max(0, left)) + 'px';
       this.handle.setAttribute('aria-valuenow', Math.round(100 * state.split));
     }
+    this.app.region.place();
     this.cross.hidden = !this.pinned;
     if (this.pinned) {
       this.cross.style.left = (origin[0] + (this.pinned.x + 0.5) * zoom) / ratio + 'px';
@@ -115,13 +116,14 @@ export class Stage {
     }
   }
 
-  // The pixel of the picture under an event, or null.
-  pixelAt(event) {
+  // The pixel of the picture under an event, or null; or the nearest that there is.
+  pixelAt(event, isNearest = false) {
     const box = this.canvas.getBoundingClientRect(), { origin, zoom, pane } = this.window;
     let x = (event.clientX - box.left) * this.ratio;
     const y = (event.clientY - box.top) * this.ratio;
     if (x >= pane) x -= pane;
     const at = { x: Math.floor((x - origin[0]) / zoom), y: Math.floor((y - origin[1]) / zoom) };
+    if (isNearest) return { x: Math.min(this.size.width - 1, Math.max(0, at.x)), y: Math.min(this.size.height - 1, Math.max(0, at.y)) };
     return at.x >= 0 && at.y >= 0 && at.x < this.size.width && at.y < this.size.height ? at : null;
   }
 
@@ -134,11 +136,13 @@ export class Stage {
   down(event) {
     this.canvas.setPointerCapture(event.pointerId);
     this.layout();
-    this.drag = { x: event.clientX, y: event.clientY, origin: [...this.window.origin] };
+    this.drag = { x: event.clientX, y: event.clientY, origin: [...this.window.origin], corner: event.shiftKey ? this.pixelAt(event, true) : null };
   }
   move(event) {
     this.pointer = this.pixelAt(event);
-    if (this.drag) {
+    if (this.drag?.corner) {
+      this.app.region.between(this.drag.corner, this.pixelAt(event, true));
+    } else if (this.drag) {
       const { zoom, pane, height, wedge } = this.window;
       const left = this.drag.origin[0] + (event.clientX - this.drag.x) * this.ratio;
       const top = this.drag.origin[1] + (event.clientY - this.drag.y) * this.ratio;
@@ -191,22 +195,6 @@ export class Stage {
       if (kind === 'photo') out.flaws = flawsAt(entry.data, i);
     }
     return out;
-  }
-
-  // Exposure that puts the photo's log average, inside the mask, on middle grey [stop].
-  autoExposure(grey) {
-    const entry = this.shownEntries?.photo ?? this.shownEntries?.render;
-    if (!entry?.data) return null;
-    let sum = 0, count = 0;
-    for (let i = 0; i < entry.width * entry.height; ++i) {
-      if (flawsAt(entry.data, i) & kMasked) continue;
-      const y = luminanceAt(entry.data, i);
-      if (y > 1e-4) {
-        sum += Math.log2(y);
-        ++count;
-      }
-    }
-    return count ? Math.min(30, Math.max(-30, Math.log2(grey) - sum / count)) : null;
   }
 
   // Display values of a rectangle of the canvas, from the top left (tests, and the wedge's labels).

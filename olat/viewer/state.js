@@ -32,6 +32,12 @@ export function textOf(state) {
     .join('&');
 }
 
+// The same with the exposure in it also where that is 0: an address that names none is opened with one for its photo.
+export function addressOf(state) {
+  const text = textOf(state);
+  return numberText(state.ev) === '0' ? text + (text ? '&' : '') + 'ev=0' : text;
+}
+
 // Values that cannot be used are left at their default and named in `faults`.
 export function stateOf(text) {
   const state = initialState(), faults = [];

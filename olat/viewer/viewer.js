@@ -1,6 +1,6 @@
 // The page: one state, one picture, and the parts that show and change it.
 import { tables, takeTables, fieldNamed } from './tables.js';
-import { initialState, stateOf, textOf, pipelineOf, hashOf, kept, numberText } from './state.js';
+import { initialState, stateOf, textOf, addressOf, pipelineOf, hashOf, kept, numberText } from './state.js';
 import { Painter } from './shader.js';
 import { Pictures, ServerSource } from './pictures.js';
 import { Stage, metricText } from './stage.js';
@@ -8,10 +8,11 @@ import { Sphere } from './sphere.js';
 import { Matrix, colorOf } from './matrix.js';
 import { showProbe, binsOf, showHistogram, showProvenance, showWedge } from './side.js';
 import { Keys, keyOf, makeActions, neighbours, commandOf } from './actions.js';
-import { showHelp, showPalette, keyText } from './dialogs.js';
+import { showHelp, showPalette } from './dialogs.js';
+import { byId, buildControls, showControls } from './controls.js';
+import { Region } from './region.js';
+import { Thumbs } from './thumbs.js';
 import { ReportSource } from './report.js';
-
-const byId = id => document.getElementById(id);
 
 class Viewer {
   async start() {
@@ -30,25 +31,38 @@ class Viewer {
     this.pictures = new Pictures(this.painter, this.source, entry => { if (entry?.error) this.say(entry.error); this.redraw(); });
     this.pictures.initial = initialState();
 
-    const { state, faults } = stateOf(report ? location.hash.slice(1) : location.search);
+    const query = report ? location.hash.slice(1) : location.search, { state, faults } = stateOf(query);
     this.state = state;
+    if (!new URLSearchParams(query).has('ev')) state.ev = kept(capture.pipeline.ev);
+    this.exposing = state.ev === 0 && !new URLSearchParams(query).has('ev');
     this.seen = new Set();
     this.versions = {};
     this.lastSingle = 'photo';
-    if (!location.search && !report) Object.assign(this.state, { ev: kept(capture.pipeline.ev), match: capture.pipeline.match });
+    if (!location.search && !report) this.state.match = capture.pipeline.match;
     if (!location.search && fieldNamed('view').words.includes(capture.pipeline.view)) this.state.view = capture.pipeline.view;
     this.findPlace();
+    this.region = new Region(this, [byId('region'), byId('region_right')]);
     this.stage = new Stage(this, canvas, byId('split'), byId('cross'));
     this.sphere = new Sphere(byId('sphere'), light => this.goto(this.place.camera, light));
     this.matrix = new Matrix(byId('matrix'), byId('matrix_note'), at => this.goto(at.camera, at.light));
+    this.thumbs = new Thumbs(this, byId('thumbs'));
     this.actions = makeActions(this);
-    this.buildControls();
+    buildControls(this);
     this.bookmarks = this.readBookmarks();
     document.addEventListener('keydown', event => this.key(event));
+    document.addEventListener('keyup', event => { if (event.code === this.held?.code) this.release(); });
+    addEventListener('blur', () => this.release());
+    if (report) addEventListener('hashchange', () => this.follow(location.hash.slice(1)));
     byId('name').textContent = capture.name || capture.root || 'capture';
     document.title = (capture.name || 'capture') + ' – Likeness';
     if (faults.length) this.say('not understood: ' + faults.join(', '));
     this.change({});
+    this.exposed = capture.pipeline.by ?? null;
+    if (this.exposing) {
+      this.stage.layout();
+      this.stage.ask();
+      this.expose('percentile');
+    }
     this.pollScores();
     document.body.dataset.ready = '1';
   }
@@ -93,6 +107,7 @@ class Viewer {
   // The only way that the state changes.
   change(part) {
     for (const [name, value] of Object.entries(part)) this.state[name] = typeof value === 'number' ? kept(value) : value;
+    if ('ev' in part) this.exposing = this.exposed = null;
     if (['photo', 'render'].includes(this.state.mode)) this.lastSingle = this.state.mode;
     this.findPlace();
     this.seen.add(this.state.camera + '/' + this.state.light);
@@ -101,14 +116,34 @@ class Viewer {
       this.stage.ask();
     }
     this.redraw();
-    this.showControls();
+    showControls(this);
     this.announce(part);
     clearTimeout(this.remembering);
     this.remembering = setTimeout(() => this.remember(), 300);
   }
   remember() {
     if (this.capture.partial) return;
-    history.replaceState(null, '', '?' + textOf(this.state) + location.hash);
+    history.replaceState(null, '', '?' + addressOf(this.held ? { ...this.state, mode: this.held.mode } : this.state) + location.hash);
+  }
+  // What a link names of the state; the rest stays.
+  follow(text) {
+    const { state } = stateOf(text);
+    this.change(Object.fromEntries([...new URLSearchParams(text).keys()].filter(name => name in state).map(name => [name, state[name]])));
+  }
+
+  // Takes the exposure that the program finds for the photo; what else sets it meanwhile has the last word.
+  async expose(by) {
+    const asked = this.exposing = {}, { camera, light, variant, noise } = this.state;
+    const found = await this.source.exposure(textOf({ ...initialState(), camera, light, variant, noise })).catch(() => ({}));
+    if (this.exposing !== asked) return;
+    this.exposing = null;
+    if (Number.isFinite(found[by])) {
+      this.change({ ev: found[by] });
+      this.exposed = by;
+    } else {
+      if (this.drawnState) this.say('there is no picture to expose for');
+      this.redraw();
+    }
   }
 
   redraw() {
@@ -120,6 +155,9 @@ class Viewer {
     });
   }
   draw() {
+    this.complete = false;
+    // The first picture waits for its exposure: a black one before it would be a flash.
+    if (this.exposing && !this.drawnState) return;
     try {
       this.complete = this.stage.draw();
     } catch (error) {
@@ -138,6 +176,7 @@ class Viewer {
   afterwards() {
     const { photo, render } = this.stage.shownEntries, ev = this.state.ev;
     showHistogram(byId('histogram'), photo?.data && binsOf(photo, ev, [1, 1, 1], photo.data), render?.data && binsOf(render, ev, this.stage.pair.gain, photo?.width === render.width ? photo.data : null));
+    this.region.show();
     this.pictures.prefetch(neighbours(this), this.stage.level());
     const where = this.state.camera + '/' + this.state.light + '/' + this.state.variant;
     if (this.framed !== where) {
@@ -146,6 +185,7 @@ class Viewer {
         .then(frame => { if (this.framed === where) showProvenance(byId('provenance'), frame); }, () => {});
     }
     this.showMaps();
+    this.thumbs.show();
   }
 
   showMaps() {
@@ -213,81 +253,19 @@ class Viewer {
     byId('alarm').hidden = byId('tag_left').dataset.hash === byId('tag_right').dataset.hash;
     const stops = gain.map(v => Math.log2(v)), text = v => (v >= 0 ? '+' : '−') + Math.abs(v).toFixed(2);
     byId('hud').textContent = [
-      `EV ${text(state.ev)}`,
+      `EV ${text(state.ev)}${this.exposed ? ` (${tables.exposures[this.exposed].word})` : ''}`,
       'match ' + state.match + (state.match === 'none' ? '' : ' ' + (state.match === 'channel' ? stops.map(text).join(' ') : text(stops[1])) + ' stops'),
       'view ' + state.view,
       state.mode === 'difference' ? metricText(state, this.stage.pair.noise) : '',
       state.channel === 'color' ? '' : state.channel,
       `${Math.round(100 * this.stage.window.zoom)} %`,
     ].filter(Boolean).join('   ');
+    byId('hud').title = this.exposed ? tables.exposures[this.exposed].text : '';
   }
 
   probe() {
     cancelAnimationFrame(this.probing);
     this.probing = requestAnimationFrame(() => showProbe(byId('probe'), this.stage.values(), this.state.ev));
-  }
-
-  // --- controls ---------------------------------------------------------------------------------------------------
-  buildControls() {
-    const root = byId('controls');
-    for (const name of ['mode', 'metric', 'view', 'match', 'channel', 'overlay']) {
-      const field = fieldNamed(name), select = byId('c_' + name);
-      field.words.forEach((word, i) => {
-        const option = new Option(word.replace('_', ' '), word);
-        option.title = field.texts?.[i] ?? '';
-        select.append(option);
-      });
-      select.addEventListener('change', () => this.change({ [name]: select.value }));
-    }
-    for (const [name, list] of [['camera', this.capture.cameras], ['light', this.capture.lights]]) {
-      const select = byId('c_' + name);
-      list.forEach(item => select.append(new Option(item.label ? `${item.id} – ${item.label}` : item.id, item.id)));
-      select.addEventListener('change', () => this.change({ [name]: select.value }));
-    }
-    const variants = byId('c_variant');
-    this.capture.variants.forEach(id => variants.append(new Option(id, id)));
-    variants.addEventListener('change', () => this.change({ variant: variants.value }));
-    variants.closest('label').hidden = this.capture.variants.length < 2;
-    const number = (id, name) => byId(id).addEventListener('input', event => {
-      const value = Number(event.target.value), [low, high] = fieldNamed(name).range;
-      if (event.target.value !== '' && value >= low && value <= high) this.change({ [name]: value });
-    });
-    for (const name of ['ev', 'split', 'mix', 'range']) number('c_' + name, name);
-    for (const name of ['zebra', 'wedge']) byId('c_' + name).addEventListener('change', event => this.change({ [name]: event.target.checked }));
-    const gt = byId('gt');
-    for (const field of tables.fields.filter(f => f.view === 'gt')) {
-      const label = document.createElement('label'), input = document.createElement('input'), text = document.createElement('span');
-      Object.assign(input, { type: 'range', min: field.range[0], max: Math.min(field.range[1], field.name === 'gt_P' ? 10 : 3), step: 0.01, id: 'c_' + field.name });
-      label.title = field.text;
-      text.textContent = field.name.slice(3);
-      label.append(text, input, document.createElement('output'));
-      gt.append(label);
-      number(input.id, field.name);
-    }
-    root.addEventListener('keydown', event => { if (event.key === 'Escape') byId('picture').focus(); });
-    for (const button of document.querySelectorAll('button[data-action]')) {
-      const action = tables.actions.find(a => a.id === button.dataset.action);
-      button.title = `${action.text} (${keyText(this.keys.of(action)[0])})`;
-      button.setAttribute('aria-label', action.text);
-      button.addEventListener('click', () => this.run(action.id));
-    }
-  }
-  showControls() {
-    const { state } = this;
-    for (const name of ['camera', 'light', 'variant', 'mode', 'metric', 'view', 'match', 'channel', 'overlay']) byId('c_' + name).value = state[name];
-    for (const name of ['ev', 'split', 'mix', 'range', ...tables.fields.filter(f => f.view === 'gt').map(f => f.name)]) {
-      const input = byId('c_' + name);
-      if (document.activeElement !== input || input.type === 'range') input.value = numberText(state[name]);
-      const output = input.parentElement.querySelector('output');
-      if (output) output.textContent = numberText(state[name]);
-    }
-    for (const name of ['zebra', 'wedge']) byId('c_' + name).checked = state[name];
-    byId('gt').hidden = state.view !== 'gt';
-    byId('row_split').hidden = state.mode !== 'wipe';
-    byId('row_mix').hidden = state.mode !== 'onion';
-    byId('row_range').hidden = state.mode !== 'difference';
-    for (const button of document.querySelectorAll('button[data-mode]')) button.setAttribute('aria-pressed', button.dataset.mode === state.mode);
-    if (this.scoresOf && this.scoresOf !== state.metric + state.variant) this.pollScores();
   }
 
   // --- words ------------------------------------------------------------------------------------------------------
@@ -329,11 +307,28 @@ class Viewer {
     const key = keyOf(event), action = this.keys.actionOf(key);
     if (!action) return;
     event.preventDefault();
+    if (action.id === 'hold' && event.repeat) return;
     this.run(action.id, key);
+    if (action.id === 'hold' && this.held) this.held.code = event.code;
   }
   run(id, key = '1') {
     if (id !== 'auto_flip') this.stopFlip();
     this.actions[id](key);
+  }
+  // The photo instead of the render, the render instead of the photo, and the photo instead of both.
+  hold(key) {
+    const keys = this.keys.of(tables.actions.find(action => action.id === 'hold'));
+    if (!keys.includes(key)) return this.say('hold ' + keys[0]);
+    if (this.held) return;
+    this.held = { mode: this.state.mode, single: this.lastSingle };
+    this.change({ mode: this.state.mode === 'photo' ? 'render' : 'photo' });
+  }
+  release() {
+    if (!this.held) return;
+    const { mode, single } = this.held;
+    this.held = null;
+    this.change({ mode });
+    this.lastSingle = single;
   }
   autoFlip() {
     if (this.flipping) return this.stopFlip();
@@ -363,8 +358,8 @@ class Viewer {
     if (!this.bookmarks[key]) return this.say(`bookmark ${key} is empty; Ctrl ${key} keeps this state`);
     this.change(stateOf(this.bookmarks[key]).state);
   }
-  async copyCommand() {
-    const text = commandOf(this);
+  async copy(text, otherwise) {
+    if (!text) return this.say(otherwise);
     try {
       await navigator.clipboard.writeText(text);
       this.say('copied: ' + text);
@@ -374,7 +369,7 @@ class Viewer {
   }
   saveView() {
     const link = document.createElement('a');
-    link.href = URL.createObjectURL(new Blob([JSON.stringify(Object.fromEntries(textOf(this.state).split('&').filter(Boolean).map(p => p.split('=').map(decodeURIComponent))), null, 1) + '\n'], { type: 'application/json' }));
+    link.href = URL.createObjectURL(new Blob([JSON.stringify(Object.fromEntries(addressOf(this.state).split('&').filter(Boolean).map(p => p.split('=').map(decodeURIComponent))), null, 1) + '\n'], { type: 'application/json' }));
     link.download = 'view.json';
     link.click();
     setTimeout(() => URL.revokeObjectURL(link.href), 1000);
@@ -393,6 +388,7 @@ class Viewer {
   hashOfText(text) { return hashOf(pipelineOf(stateOf(text).state)); }
   close() {
     if (byId('dialog').open) byId('dialog').close();
+    else if (this.region.rect) this.region.clear();
     else if (this.stage.pinned) this.stage.pin();
     else byId('picture').focus();
   }

@@ -31,6 +31,7 @@ inline image::Picture bump(int width, int height, double phase, double gain) {
 struct SmallCapture {
   int cameras = 2, lights = 5, width = 64, height = 48;
   double dark_stops = 0.5;  // of the render at light 2
+  double gain = 1;          // of all light
   bool with_renders = true, with_mask = true;
   bool is_repeated = false;  // the first pair's files for all: quick to make where they are large
 };
@@ -72,11 +73,12 @@ inline capture::Capture write_small_capture(const std::filesystem::path& root, c
         }
         continue;
       }
-      image::write_exr(root / "photos" / name, bump(want.width, want.height, phase, 1));
+      image::write_exr(root / "photos" / name, bump(want.width, want.height, phase, want.gain));
       const bool is_absent = c == want.cameras - 1 && l == want.lights - 1;
       if (want.with_renders && !is_absent)
-        image::write_exr(root / "renders" / "truth" / name,
-                         bump(want.width, want.height, phase + 0.05, l == 2 ? std::exp2(-want.dark_stops) : 1));
+        image::write_exr(
+            root / "renders" / "truth" / name,
+            bump(want.width, want.height, phase + 0.05, want.gain * (l == 2 ? std::exp2(-want.dark_stops) : 1)));
     }
   if (want.with_mask) {
     image::Picture mask(want.width, want.height);

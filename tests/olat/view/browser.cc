@@ -224,6 +224,11 @@ bool Browser::wait(const std::string& expression, double seconds) {
 }
 
 void Browser::press(const std::string& name) {
+  key_down(name);
+  key_up(name);
+}
+
+void Browser::dispatch_key(const std::string& name, bool is_down, bool is_repeated) {
   int modifiers = 0;
   std::string rest = name;
   for (bool found = true; found;) {
@@ -237,22 +242,39 @@ void Browser::press(const std::string& name) {
   }
   const Key key = key_of(rest, (modifiers & 8) != 0);
   const bool has_text = !key.text.empty() && (modifiers & 2) == 0;
-  Json down{{"type", has_text ? "keyDown" : "rawKeyDown"},
-            {"modifiers", modifiers},
-            {"key", key.key},
-            {"code", key.code},
-            {"windowsVirtualKeyCode", key.number}};
-  if (has_text) down["text"] = key.text;
-  call("Input.dispatchKeyEvent", down.dump());
-  down["type"] = "keyUp";
-  down.erase("text");
-  call("Input.dispatchKeyEvent", down.dump());
+  Json event{{"type", !is_down   ? "keyUp"
+                      : has_text ? "keyDown"
+                                 : "rawKeyDown"},
+             {"modifiers", modifiers},
+             {"key", key.key},
+             {"code", key.code},
+             {"windowsVirtualKeyCode", key.number}};
+  if (has_text && is_down) event["text"] = key.text;
+  if (is_repeated) event["autoRepeat"] = true;
+  call("Input.dispatchKeyEvent", event.dump());
 }
 
 void Browser::click(double x, double y) {
   for (const char* type : {"mouseMoved", "mousePressed", "mouseReleased"})
     call("Input.dispatchMouseEvent",
          Json{{"type", type}, {"x", x}, {"y", y}, {"button", "left"}, {"clickCount", 1}}.dump());
+}
+
+void Browser::drag(std::array<double, 2> from, std::array<double, 2> to, bool with_shift) {
+  const auto send = [&](const char* type, std::array<double, 2> at, int buttons) {
+    call("Input.dispatchMouseEvent", Json{{"type", type},
+                                          {"x", at[0]},
+                                          {"y", at[1]},
+                                          {"button", "left"},
+                                          {"buttons", buttons},
+                                          {"modifiers", with_shift ? 8 : 0},
+                                          {"clickCount", 1}}
+                                         .dump());
+  };
+  send("mousePressed", from, 1);
+  send("mouseMoved", {(from[0] + to[0]) / 2, (from[1] + to[1]) / 2}, 1);
+  send("mouseMoved", to, 1);
+  send("mouseReleased", to, 0);
 }
 
 void Browser::screenshot(const std::filesystem::path& png) {

@@ -2,6 +2,7 @@
 
 #include <sys/types.h>
 
+#include <array>
 #include <filesystem>
 #include <string>
 
@@ -31,12 +32,18 @@ class Browser {
 
   // As the table of actions writes it: "Shift+e", "Ctrl+0", "ArrowRight", "Space".
   void press(const std::string& key);
+  void key_down(const std::string& key) { dispatch_key(key, true, false); }
+  void key_repeat(const std::string& key) { dispatch_key(key, true, true); }
+  void key_up(const std::string& key) { dispatch_key(key, false, false); }
   void click(double x, double y);
+  // With the left button from one place to another, while Shift is down or not.
+  void drag(std::array<double, 2> from, std::array<double, 2> to, bool with_shift);
   void screenshot(const std::filesystem::path& png);
   // Errors that the page's console was given, and requests to other hosts than 127.0.0.1, one a line.
   std::string faults() const { return faults_; }
 
  private:
+  void dispatch_key(const std::string& name, bool is_down, bool is_repeated);
   std::string call(const std::string& method, const std::string& parameters);
   std::string next_message();
 

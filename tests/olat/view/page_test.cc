@@ -8,6 +8,8 @@
 #include <string>
 
 #include "olat/pair/actions.h"
+#include "olat/pair/exposure.h"
+#include "olat/pair/picture.h"
 #include "olat/pair/state.h"
 #include "olat/view/report.h"
 #include "render/capture/files_of_capture.h"
@@ -20,6 +22,7 @@
 namespace likeness::olat_view {
 namespace {
 
+using olat_pair::Pair;
 using test::Browser;
 using testing::HasSubstr;
 
@@ -94,9 +97,9 @@ TEST_F(Page, HasAFunctionAndAnEffectForEachActionOfTheTable) {
             evaluate("fetch('/api/tables',{headers:{'X-Likeness-Token':location.hash.slice(1)}}).then(r=>r.json())"
                      ".then(t=>JSON.stringify(t.actions.map(a=>a.id).sort()))"));
   // Whose effect is seen elsewhere than in the state.
-  const std::set<std::string_view> elsewhere{"variant_next",   "worst",        "auto_flip", "pin",
-                                             "bookmark_store", "copy_command", "save_view", "panels",
-                                             "help",           "palette",      "close",     "bookmark_recall"};
+  const std::set<std::string_view> elsewhere{"variant_next", "worst",     "auto_flip", "pin",   "bookmark_store",
+                                             "copy_command", "save_view", "panels",    "hold",  "region",
+                                             "region_copy",  "help",      "palette",   "close", "bookmark_recall"};
   for (const olat_pair::Action& action : olat_pair::kActions) {
     if (elsewhere.contains(action.id)) continue;
     for (std::string_view rest = action.keys; !rest.empty();) {
@@ -104,7 +107,7 @@ TEST_F(Page, HasAFunctionAndAnEffectForEachActionOfTheTable) {
       rest.remove_prefix(std::min(rest.size(), key.size() + 1));
       // From here every action has somewhere to go.
       evaluate(
-          "likeness.change({camera:'c0',light:'l2',mode:'wipe',ev:2,channel:'luma',overlay:'none',zoom:3,metric:'"
+          "likeness.change({camera:'c0',light:'l2',mode:'wipe',ev:3,channel:'luma',overlay:'none',zoom:3,metric:'"
           "signed',"
           "view:'khronos',zebra:false,wedge:false,split:0.5})");
       if (action.id == "color") evaluate("likeness.change({channel:'red'})");
@@ -113,7 +116,8 @@ TEST_F(Page, HasAFunctionAndAnEffectForEachActionOfTheTable) {
       ASSERT_TRUE(wait("likeness.complete")) << action.id;
       const std::string before = evaluate("JSON.stringify(likeness.state)");
       press(key);
-      EXPECT_NE(evaluate("JSON.stringify(likeness.state)"), before) << action.id << " by " << key;
+      // Exposures are the program's: their keys ask for them.
+      EXPECT_TRUE(wait("JSON.stringify(likeness.state) !== " + before)) << action.id << " by " << key;
     }
   }
 }
@@ -138,9 +142,18 @@ TEST_F(Page, ChangesExposureInTheDirectionThatTheTableSays) {
   EXPECT_EQ(state("ev"), "\"1.75\"");
   press("0");
   EXPECT_EQ(state("ev"), "\"0\"");
+  const capture::Capture capture = capture::read_capture(folder_->path());
+  const Pair pair = olat_pair::load_pair(capture, {});
+  const auto found = olat_pair::exposures_of(pair.photo, pair.flaws, static_cast<double>(pair.noise));
+  ASSERT_TRUE(found && found->average != found->percentile);
   press("n");
-  EXPECT_NE(state("ev"), "\"0\"");
-  EXPECT_TRUE(wait("document.getElementById('hud').textContent.startsWith('EV ')"));
+  EXPECT_TRUE(wait("likeness.state.ev === " + std::to_string(found->average))) << "the log average on middle grey";
+  EXPECT_TRUE(wait("document.getElementById('hud').textContent.includes('(auto, log average)')"));
+  press("Shift+n");
+  EXPECT_TRUE(wait("likeness.state.ev === " + std::to_string(found->percentile))) << "the 99th percentile on white";
+  EXPECT_TRUE(wait("document.getElementById('hud').textContent.includes('(auto)')"));
+  press("e");
+  EXPECT_TRUE(wait("!document.getElementById('hud').textContent.includes('auto')")) << "chosen by hand now";
 }
 
 TEST_F(Page, ShowsTheSameHashOnBothPanesAndAsTheProgram) {
@@ -153,7 +166,7 @@ TEST_F(Page, ShowsTheSameHashOnBothPanesAndAsTheProgram) {
 }
 
 TEST_F(Page, OpensHelpAndPaletteAndClosesThem) {
-  open();
+  open("ev=0");
   press("?");
   EXPECT_TRUE(wait("document.getElementById('dialog').open"));
   for (const olat_pair::Action& action : olat_pair::kActions)
@@ -250,7 +263,8 @@ TEST_F(Page, IsNamedForWhoDoesNotSeeIt) {
   open("mode=wipe");
   EXPECT_EQ(
       evaluate(
-          "[...document.querySelectorAll('button,select,input,canvas,[role=slider],[role=listbox]')].filter(e => "
+          "[...document.querySelectorAll('button,select,input,canvas:not([aria-hidden]),[role=slider],[role=listbox],["
+          "role=application]')].filter(e => "
           "!(e.getAttribute('aria-label') || e.labels?.length || e.textContent.trim())).map(e => e.id || e.outerHTML)"),
       "[]");
   EXPECT_EQ(evaluate("document.getElementById('live').getAttribute('aria-live')"), "\"polite\"");
@@ -284,8 +298,9 @@ TEST_F(Page, IsItsOwnReportWithoutAServer) {
   EXPECT_EQ(state("mode"), "\"render\"");
   press("w");
   EXPECT_EQ(state("mode"), "\"wipe\"");
+  evaluate("likeness.change({ev: 0.5})");
   press("}");
-  EXPECT_EQ(state("ev"), "\"1\"");
+  EXPECT_EQ(state("ev"), "\"1.5\"");
   EXPECT_TRUE(wait("likeness.complete"));
   const image::Picture photo = test::bump(64, 48, 2, 1);
   evaluate("likeness.stage.pointer = {x: 40, y: 20}");
