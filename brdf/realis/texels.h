@@ -23,27 +23,34 @@ struct Lanes {
     B x, y, z, reach, scale;
   };
   static Columns columns(const RealisLobes::Lobe* lobes, const std::uint8_t* numbers) {
-    alignas(64) float lanes[5][B::size];
-    for (std::size_t j = 0; j < B::size; ++j) {
-      const RealisLobes::Lobe& lobe = lobes[numbers[j]];
-      lanes[0][j] = lobe.x;
-      lanes[1][j] = lobe.y;
-      lanes[2][j] = lobe.z;
-      lanes[3][j] = lobe.reach;
-      lanes[4][j] = lobe.scale;
-    }
-    return {B::load_aligned(lanes[0]), B::load_aligned(lanes[1]), B::load_aligned(lanes[2]), B::load_aligned(lanes[3]),
-            B::load_aligned(lanes[4])};
+    const auto column = [&](float RealisLobes::Lobe::* part) {
+      return of_each([&](std::size_t j) { return lobes[numbers[j]].*part; });
+    };
+    using Lobe = RealisLobes::Lobe;
+    return {column(&Lobe::x), column(&Lobe::y), column(&Lobe::z), column(&Lobe::reach), column(&Lobe::scale)};
   }
   static B numbers(const std::uint8_t* bytes) {
-    alignas(64) float lanes[B::size];
-    for (std::size_t j = 0; j < B::size; ++j) lanes[j] = bytes[j];
-    return B::load_aligned(lanes);
+    return of_each([&](std::size_t j) { return float(bytes[j]); });
+  }
+  // The entries of a table that B::size bytes name.
+  static B entries(const float* table, const std::uint8_t* numbers) {
+    return of_each([&](std::size_t j) { return table[numbers[j]]; });
   }
   // The sums of `count` rows of eight, pairs first.
   static void sums(const float* rows, float* out, std::size_t count) {
     for (std::size_t i = 0; i < count; ++i, rows += kRealisDominant)
       out[i] = ((rows[0] + rows[1]) + (rows[2] + rows[3])) + ((rows[4] + rows[5]) + (rows[6] + rows[7]));
+  }
+
+ private:
+  template <class F>
+  static B of_each(const F& entry) {
+#ifdef __SSE2__
+    if constexpr (B::size == 4) return _mm_setr_ps(entry(0), entry(1), entry(2), entry(3));
+#endif
+    alignas(64) float lanes[B::size];
+    for (std::size_t j = 0; j < B::size; ++j) lanes[j] = entry(j);
+    return B::load_aligned(lanes);
   }
 };
 
@@ -74,6 +81,9 @@ struct Lanes<xsimd::batch<float, A>> {
   }
   static B numbers(const std::uint8_t* bytes) {
     return _mm256_cvtepi32_ps(_mm256_cvtepu8_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(bytes))));
+  }
+  static B entries(const float* t, const std::uint8_t* n) {
+    return _mm256_set_ps(t[n[7]], t[n[6]], t[n[5]], t[n[4]], t[n[3]], t[n[2]], t[n[1]], t[n[0]]);
   }
   static void sums(const float* rows, float* out, std::size_t count) {
     const auto row = [&](std::size_t k) { return _mm256_load_ps(rows + k * kRealisDominant); };
@@ -139,6 +149,28 @@ void residuals(const RealisLobes& lobes, const RealisTexel<kChannels>* texels, c
       for (std::size_t channel = 0; channel < kChannels; ++channel)
         (B::load_aligned(parts[channel] + entry) * g).store_aligned(parts[channel] + entry);
     }
+    for (std::size_t channel = 0; channel < kChannels; ++channel)
+      Lanes::sums(parts[channel], out[channel] + first, block);
+  }
+}
+
+// The same towards a direction that all texels share.
+template <class B = realis_texels::Widest, std::size_t kChannels>
+void residuals(const RealisTowards& towards, const RealisTexel<kChannels>* texels,
+               const std::array<float*, kChannels>& out, std::size_t count) {
+  using Lanes = realis_texels::Lanes<B>;
+  constexpr std::size_t kBlock = 16;
+  alignas(64) float parts[kChannels][kBlock * kRealisDominant];
+  for (std::size_t first = 0; first < count; first += kBlock) {
+    const std::size_t block = count - first < kBlock ? count - first : kBlock;
+    for (std::size_t i = 0; i < block; ++i)
+      for (std::size_t j = 0; j < kRealisDominant; j += B::size) {
+        const B step = Lanes::entries(towards.steps.data(), texels[first + i].lobes.data() + j);
+        for (std::size_t channel = 0; channel < kChannels; ++channel) {
+          const B byte = Lanes::numbers(texels[first + i].coefficients[channel].data() + j);
+          ((byte - B(float(kRealisZero))) * step).store_aligned(parts[channel] + i * kRealisDominant + j);
+        }
+      }
     for (std::size_t channel = 0; channel < kChannels; ++channel)
       Lanes::sums(parts[channel], out[channel] + first, block);
   }

@@ -83,8 +83,9 @@ void exact(Surface& s) {
 void scalar(Surface& s) {
   for (std::size_t i = 0; i < kTexels; ++i) s.r[i] = residual(s.lobes, s.grey[i], Vec3<float>(s.x[i], s.y[i], s.z[i]));
 }
+RealisTowards towards_of(const Surface& s) { return {s.lobes, Vec3<float>(s.x[0], s.y[0], s.z[0])}; }
 void distant(Surface& s) {
-  const RealisTowards towards(s.lobes, Vec3<float>(s.x[0], s.y[0], s.z[0]));
+  const RealisTowards towards = towards_of(s);
   for (std::size_t i = 0; i < kTexels; ++i) s.r[i] = residual(towards, s.grey[i]);
 }
 void two_of_eight(Surface& s) {
@@ -93,6 +94,9 @@ void two_of_eight(Surface& s) {
 }
 void grey(Surface& s, const TexelsInSet& set) {
   set.grey(s.lobes, s.grey.data(), s.x.data(), s.y.data(), s.z.data(), {s.r.data()}, kTexels);
+}
+void distant_grey(Surface& s, const TexelsInSet& set) {
+  set.grey_towards(towards_of(s), s.grey.data(), {s.r.data()}, kTexels);
 }
 void rgb(Surface& s, const TexelsInSet& set) {
   set.rgb(s.lobes, s.rgb.data(), s.x.data(), s.y.data(), s.z.data(), {s.r.data(), s.g.data(), s.b.data()}, kTexels);
@@ -111,6 +115,7 @@ std::vector<Way> ways() {
 #ifdef __x86_64__
   if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) {
     all.push_back({"batches, avx2", [](Surface& s) { grey(s, texels_avx2()); }});
+    all.push_back({"one distant light, batches, avx2", [](Surface& s) { distant_grey(s, texels_avx2()); }});
     all.push_back({"batches, avx2, RGB", [](Surface& s) { rgb(s, texels_avx2()); }});
   }
 #endif

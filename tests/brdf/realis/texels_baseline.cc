@@ -3,6 +3,9 @@
 
 namespace likeness::brdf {
 
-TexelsInSet texels_baseline() { return {&residuals<realis_texels::Widest, 1>, &residuals<realis_texels::Widest, 3>}; }
+TexelsInSet texels_baseline() {
+  using B = realis_texels::Widest;
+  return {&residuals<B, 1>, &residuals<B, 3>, &residuals<B, 1>, &residuals<B, 3>};
+}
 
 }  // namespace likeness::brdf

@@ -12,9 +12,15 @@ template <std::size_t kChannels>
 using Residuals = void (*)(const RealisLobes&, const RealisTexel<kChannels>*, const float* x, const float* y,
                            const float* z, const std::array<float*, kChannels>& out, std::size_t count);
 
+template <std::size_t kChannels>
+using ResidualsTowards = void (*)(const RealisTowards&, const RealisTexel<kChannels>*,
+                                  const std::array<float*, kChannels>& out, std::size_t count);
+
 struct TexelsInSet {
   Residuals<1> grey = nullptr;
   Residuals<3> rgb = nullptr;
+  ResidualsTowards<1> grey_towards = nullptr;
+  ResidualsTowards<3> rgb_towards = nullptr;
 };
 
 TexelsInSet texels_baseline();

@@ -128,6 +128,27 @@ TEST(Texels, AreTheSameInEverySet) {
   RecordProperty("worst_ulps", std::to_string(worst));
 }
 
+TEST(Texels, TowardsOneDirectionHaveTheValuesOfOneAfterTheOther) {
+  for (const Set& set : sets_of_this_machine())
+    for (std::size_t count = 0; count < 70; ++count) {
+      const Surface s = surface_of(count, 300 + count);
+      const RealisTowards towards(s.lobes, Vec3<float>(Random(count).direction(-1)));
+      std::vector<float> grey(count + 16, kGuardValue), r = grey, g = grey, b = grey;
+      set.texels.grey_towards(towards, s.grey.data(), {grey.data()}, count);
+      set.texels.rgb_towards(towards, s.rgb.data(), {r.data(), g.data(), b.data()}, count);
+      for (std::size_t i = 0; i < count; ++i) {
+        const Rgb<float> want = residual(towards, s.rgb[i]);
+        ASSERT_EQ(grey[i], g[i]) << set.name;
+        ASSERT_NEAR(r[i], want.r, kFourUlps * magnitude_of(s, i, 0)) << set.name << ": " << i << " of " << count;
+        ASSERT_NEAR(g[i], want.g, kFourUlps * magnitude_of(s, i, 1)) << set.name << ": " << i << " of " << count;
+        ASSERT_NEAR(b[i], want.b, kFourUlps * magnitude_of(s, i, 2)) << set.name << ": " << i << " of " << count;
+      }
+      for (const auto& out : {grey, r, g, b})
+        for (std::size_t i = count; i < out.size(); ++i)
+          ASSERT_EQ(std::bit_cast<std::uint32_t>(out[i]), kGuard) << set.name << " writes past " << count;
+    }
+}
+
 // Against the specification, not another loop of this library.
 TEST(Texels, HaveTheResidualOfTheDefinition) {
   Random random(9);
