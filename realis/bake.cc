@@ -28,6 +28,12 @@ double error_of(const Subject& s, std::size_t sample, Channels channels, std::si
   return static_cast<double>(s.photo[sample][channel]) - static_cast<double>(s.render[sample][channel]);
 }
 
+double mean_irradiance(const Subject& s) {
+  double sum = 0;
+  for (std::size_t i = 0; i < s.lights.size(); ++i) sum += s.irradiance_of(i);
+  return s.lights.empty() ? 1 : sum / static_cast<double>(s.lights.size());
+}
+
 // Texels that are seen by every light, in a random order that the seed decides; of all if there are none.
 Sampled sampled_of(const Subject& s, std::uint64_t seed) {
   Sampled out;
@@ -36,6 +42,7 @@ Sampled sampled_of(const Subject& s, std::uint64_t seed) {
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::mt19937_64 random(seed);
   const std::size_t lights = s.lights.size();
+  const double mean = mean_irradiance(s);
   std::size_t taken = 0;
   for (std::size_t i = 0; i < order.size() && taken < kTexelsToChooseBy; ++i) {
     std::swap(order[i], order[i + random() % (order.size() - i)]);
@@ -45,7 +52,8 @@ Sampled sampled_of(const Subject& s, std::uint64_t seed) {
                     s.weight.begin() + static_cast<std::ptrdiff_t>(first + lights), [](float w) { return w > 0; });
     if (!is_seen) continue;
     for (std::size_t k = 0; k < lights; ++k)
-      out.residuals.push_back(static_cast<float>(error_of(s, first + k, Channels::kLuminance, 0)));
+      out.residuals.push_back(
+          static_cast<float>(error_of(s, first + k, Channels::kLuminance, 0) * mean / s.irradiance_of(k)));
     ++taken;
   }
   return out;
@@ -107,6 +115,7 @@ Bake bake(const Subject& subject, const BakeOptions& options, const GoesOn& goes
     w.solver.aim(subject.to_lights);
     return w;
   });
+  const double mean = mean_irradiance(subject);
   constexpr std::size_t kAtOnce = 4096;
   for (std::size_t begin = 0; begin < subject.texels(); begin += kAtOnce) {
     if (!goes_on(static_cast<double>(begin) / static_cast<double>(subject.texels()), "baking"))
@@ -116,9 +125,10 @@ Bake bake(const Subject& subject, const BakeOptions& options, const GoesOn& goes
       const std::size_t first = subject.samples_of(texel);
       for (std::size_t i = 0; i < lights; ++i) {
         const double cosine = std::max(static_cast<double>(subject.cosine[first + i]), options.floor);
-        w.weights[i] = static_cast<double>(subject.weight[first + i]) * cosine * cosine;
+        const double received = cosine * subject.irradiance_of(i), relative = received / mean;
+        w.weights[i] = static_cast<double>(subject.weight[first + i]) * relative * relative;
         for (std::size_t c = 0; c < channels; ++c)
-          w.residuals[c * lights + i] = error_of(subject, first + i, options.channels, c) / cosine;
+          w.residuals[c * lights + i] = error_of(subject, first + i, options.channels, c) / received;
       }
       w.solver.solve(w.weights, w.residuals, w.coefficients);
       if (out.kept < lobes) {

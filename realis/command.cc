@@ -6,17 +6,21 @@
 #include <cmath>
 #include <cstdio>
 #include <iostream>
+#include <optional>
 #include <string>
 
 #include <CLI/CLI.hpp>
 
+#include "realis/apply.h"
 #include "realis/bake_file.h"
 #include "realis/from_capture.h"
 #include "render/capture/files_of_capture.h"
 #include "render/files/files.h"
 #include "render/files/interrupt.h"
 #include "render/files/progress.h"
+#include "render/image/read.h"
 #include "render/image/write.h"
+#include "render/view/view.h"
 
 namespace likeness::realis {
 namespace {
@@ -42,10 +46,11 @@ std::size_t camera_of(const capture::Capture& capture, const std::string& id) {
 }
 
 std::size_t variant_of(const capture::Capture& capture, const std::string& id) {
-  const std::size_t at = id.empty() ? rendered_variant_of(capture) : capture::variant_of(capture, id);
+  const std::size_t at = capture::variant_of(capture, id);
   if (at != capture::kAbsent) return at;
-  throw UsageError(id.empty() ? std::string("the capture has no renders; `likeness olat render` makes them")
-                              : "--variant " + files::in_quotes(id) + " is not in the capture");
+  throw UsageError("--variant " + files::in_quotes(id) +
+                   " is not in the capture; `likeness olat render --variant NAME` makes one, and without --variant the "
+                   "renders are made here, from the photographs");
 }
 
 BakeOptions options_of(const Request& request) {
@@ -74,6 +79,8 @@ std::string fixed(double value, int digits) {
   return text.data();
 }
 
+double square(double x) { return x * x; }
+
 // Root mean square of photo - (render + residual) over samples that can be trusted, and of photo - render.
 std::pair<double, double> errors_of(const Subject& s, const Bake& bake) {
   double plain = 0, baked = 0;
@@ -87,7 +94,7 @@ std::pair<double, double> errors_of(const Subject& s, const Bake& bake) {
       const auto e = residuals[i].at(texel, static_cast<double>(s.cosine[at]));
       for (std::size_t c = 0; c < 3; ++c) {
         const double difference = static_cast<double>(s.photo[at][c]) - static_cast<double>(s.render[at][c]);
-        plain += difference * difference, baked += (difference - e[c]) * (difference - e[c]);
+        plain += difference * difference, baked += square(difference - s.irradiance_of(i) * e[c]);
       }
       count += 3;
     }
@@ -110,8 +117,8 @@ void write_results(capture::Capture& capture, const Subject& subject, const Bake
       const std::size_t at = subject.samples_of(texel) + i;
       const auto e = residual.at(texel, static_cast<double>(subject.cosine[at]));
       for (std::size_t c = 0; c < 3; ++c)
-        picture.rgb[3 * std::size_t{subject.pixels[texel]} + c] =
-            static_cast<float>(std::max(static_cast<double>(subject.render[at][c]) + e[c], 0.0));
+        picture.rgb[3 * std::size_t{subject.pixels[texel]} + c] = static_cast<float>(
+            std::max(static_cast<double>(subject.render[at][c]) + subject.irradiance_of(i) * e[c], 0.0));
     }
     image::write_exr(capture::render_file(capture, variant, subject.camera, subject.lights[i]), picture);
   }
@@ -121,7 +128,7 @@ int run_bake(const Request& request) {
   files::catch_interrupts();
   const BakeOptions options = options_of(request);
   capture::Capture capture = capture::read_capture(request.capture);
-  const std::size_t camera = camera_of(capture, request.camera), variant = variant_of(capture, request.variant);
+  const std::size_t camera = camera_of(capture, request.camera);
   if (!capture::is_id(request.name)) throw UsageError("--name " + files::in_quotes(request.name) + " cannot be a name");
 
   files::Progress progress;
@@ -130,7 +137,11 @@ int run_bake(const Request& request) {
     return !files::interrupted();
   };
   const auto begin = std::chrono::steady_clock::now();
-  const Subject subject = read_subject(capture, camera, renders_of_variant(capture, camera, variant), {}, goes_on);
+  std::optional<capture_fit::Fit> fit;
+  if (request.variant.empty()) fit = thin(capture_fit::fit_capture(capture, camera, {}, goes_on));
+  const Renderer renderer =
+      fit ? renders_of_fit(capture, *fit) : renders_of_variant(capture, camera, variant_of(capture, request.variant));
+  const Subject subject = read_subject(capture, camera, renderer, {}, goes_on);
   const auto read = std::chrono::steady_clock::now();
   StoredBake stored{bake(subject, options, goes_on), {}, subject.width, subject.height, subject.pixels};
   const auto baked = std::chrono::steady_clock::now();
@@ -143,6 +154,7 @@ int run_bake(const Request& request) {
   const std::filesystem::path folder =
       request.out.empty() ? capture.root / "realis" / request.name : std::filesystem::path(request.out);
   write_bake(folder, stored, request.is_float);
+  if (fit) write_surface(folder, *fit);
   if (!request.result.empty()) write_results(capture, subject, seen, request.result);
 
   std::cout << subject.texels() << " texels under " << subject.lights.size() << " lights: " << seen.basis.lobes.size()
@@ -162,6 +174,82 @@ int run_bake(const Request& request) {
   return 0;
 }
 
+struct ApplyRequest {
+  std::string capture, name = "bake", environment, out, view = "gt";
+  std::vector<std::string> lights;
+  double beams = 256, ev = 0;
+  bool is_plain = false;
+};
+
+Beam beam_of(const std::string& text) {
+  Beam beam;
+  std::array<double, 3> v{};
+  int read = 0;
+  if (std::sscanf(text.c_str(), "%lf,%lf,%lf%n", &v[0], &v[1], &v[2], &read) != 3 ||
+      read != static_cast<int>(text.size()) || !std::isfinite(v[0] + v[1] + v[2]) ||
+      !(v[0] * v[0] + v[1] * v[1] + v[2] * v[2] > 0))
+    throw UsageError(
+        "--light " + files::in_quotes(text) +
+        " is not a direction x,y,z (to the light; x right, y up, z towards the camera; for example 1,1,2)");
+  const double length = std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+  beam.to_light = glm::dvec3(v[0], v[1], v[2]) / length;
+  return beam;
+}
+
+int run_apply(const ApplyRequest& request) {
+  files::catch_interrupts();
+  if (request.lights.empty() == request.environment.empty())
+    throw UsageError("say what shines: either --light x,y,z (several times, if you like), or --environment FILE");
+  if (!(request.beams >= 1 && request.beams <= 65536))
+    throw UsageError("--beams = " + files::number_text(request.beams) + " is outside [1, 65536]");
+  const capture::Capture capture = capture::read_capture(request.capture);
+  const std::filesystem::path folder = capture.root / "realis" / request.name;
+  const StoredBake stored = read_bake(folder);
+  const std::size_t camera = camera_of(capture, stored.about.camera);
+  const capture_fit::Fit surface = read_surface(folder, camera);
+  std::vector<Beam> beams;
+  for (const std::string& light : request.lights) beams.push_back(beam_of(light));
+  if (!request.environment.empty())
+    beams = beams_of(image::read_picture(request.environment), static_cast<std::size_t>(request.beams));
+  const Relit relit = relight(capture, stored, surface, beams);
+  const std::filesystem::path file = request.out.empty()
+                                         ? folder / (request.environment.empty() ? "light.exr" : "environment.exr")
+                                         : std::filesystem::path(request.out);
+  const image::Picture& picture = request.is_plain ? relit.render : relit.realis;
+  image::write_exr(file, picture);
+  scene::View shown;
+  shown.name = request.view, shown.ev = request.ev;
+  std::filesystem::path display = file;
+  display.replace_extension(".png");
+  image::write_png(display, view::show(picture, shown));
+  std::cout << beams.size() << (beams.size() == 1 ? " light: " : " lights: ") << file.string() << ", "
+            << display.string() << "\n";
+  return 0;
+}
+
+void add_apply(CLI::App& realis, int& exit_code) {
+  CLI::App* apply = realis.add_subcommand("apply", "Relight a baked subject");
+  auto request = std::make_shared<ApplyRequest>();
+  apply->add_option("CAPTURE", request->capture, "capture that was baked")->required();
+  apply->add_option("--light", request->lights,
+                    "x,y,z to a distant light of the capture's unit strength; x right, y up, z to the camera");
+  apply->add_option("--environment", request->environment,
+                    "latitude-longitude picture (EXR, HDR); its middle is behind");
+  apply->add_option("--beams", request->beams, "lights that stand for an environment")->capture_default_str();
+  apply->add_option("--name", request->name, "of the bake")->capture_default_str();
+  apply->add_flag("--plain", request->is_plain, "the render without what was baked, to compare");
+  apply->add_option("--view", request->view, "of the PNG, as in likeness render")->capture_default_str();
+  apply->add_option("--ev", request->ev, "exposure of the PNG [stop]")->capture_default_str();
+  apply->add_option("--out", request->out, "EXR; a PNG is written beside it. Default: in the bake's folder");
+  apply->footer(R"(Examples
+  likeness realis apply capture --light 1,0.5,1                      a light from the right
+  likeness realis apply capture --environment sky.hdr --ev 1         under a sky
+  likeness realis apply capture --light 1,0.5,1 --plain --out a.exr  what the fit alone makes of it
+
+Exit codes: 0 done, 2 usage, 3 a file cannot be used, 4 the program failed.)");
+  apply->callback([request, &exit_code] { exit_code = run_apply(*request); });
+}
+
 }  // namespace
 
 void add_realis(CLI::App& program, int& exit_code) {
@@ -171,7 +259,8 @@ void add_realis(CLI::App& program, int& exit_code) {
   auto request = std::make_shared<Request>();
   bake->add_option("CAPTURE", request->capture, "folder with capture.json (likeness olat import)")->required();
   bake->add_option("--camera", request->camera, "whose picture is the texture; default: the first");
-  bake->add_option("--variant", request->variant, "which renders; default: the first that there are");
+  bake->add_option("--variant", request->variant,
+                   "renders that are there (likeness olat render), instead of those of a fit of the photographs");
   bake->add_option("--lobes", request->lobes, "auto (by held-out lights), or how many")->capture_default_str();
   bake->add_option("--dominant", request->dominant, "lobes that a texel keeps; 0: all")
       ->check(CLI::Range(0, static_cast<int>(kMostLobes)))
@@ -186,12 +275,13 @@ void add_realis(CLI::App& program, int& exit_code) {
   bake->add_option("--result", request->result, "variant that render + realis is written to; empty: none")
       ->capture_default_str();
   bake->footer(R"(Examples
-  likeness olat render capture --from-normals      renders to compare with
-  likeness realis bake capture                     what they lack, in CAPTURE/realis/bake
-  likeness olat view capture                       photographs beside render + realis
+  likeness realis bake capture                      fit the photographs, bake what the fit lacks: CAPTURE/realis/bake
+  likeness olat view capture                        photographs beside render + realis
+  likeness realis bake head --variant path_traced   what the renders of a scene lack
 
 Exit codes: 0 done, 2 usage, 3 a file cannot be used, 4 the program failed.)");
   bake->callback([request, &exit_code] { exit_code = run_bake(*request); });
+  add_apply(*realis, exit_code);
 }
 
 }  // namespace likeness::realis

@@ -1,52 +1,45 @@
 #include "realis/from_capture.h"
 
-#include <variant>
-
 #include <glm/geometric.hpp>
 
 #include "render/capture/pixels.h"
-#include "render/image/read.h"
+#include "render/capture/sight.h"
 
 namespace likeness::realis {
 namespace {
 
-// The cosine of normal and light at each pixel.
-class Cosines {
- public:
-  Cosines(const capture::Capture& capture, std::size_t camera) : capture_(capture) {
-    if (layer_file(capture, camera, capture::Layer::kNormal).empty()) return;
-    normals_ = capture::read_normals(capture, camera);
-    if (const auto file = layer_file(capture, camera, capture::Layer::kPosition); !file.empty())
-      positions_ = image::read_picture(file);
-  }
-  std::vector<float> of(std::size_t light) const {
-    std::vector<float> out(normals_.rgb.size() / 3);
-    const auto& place = capture_.lights[light].place;
-    for (std::size_t i = 0; i < out.size(); ++i) {
-      const glm::dvec3 normal(normals_.rgb[3 * i], normals_.rgb[3 * i + 1], normals_.rgb[3 * i + 2]);
-      glm::dvec3 to_light(0);
-      if (const auto* distant = std::get_if<capture::DistantLight>(&place)) to_light = distant->to_light;
-      if (const auto* near = std::get_if<capture::NearLight>(&place)) {
-        to_light = near->position;
-        if (positions_.rgb.size() == normals_.rgb.size())
-          to_light -= glm::dvec3(positions_.rgb[3 * i], positions_.rgb[3 * i + 1], positions_.rgb[3 * i + 2]);
-        if (const double length = glm::length(to_light); length > 0) to_light /= length;
-      }
-      out[i] = static_cast<float>(glm::dot(normal, to_light));
+// The cosine of normal and light at each pixel; of no normals nothing.
+std::vector<float> cosines_of(const capture::Light& light, const image::Picture& normals,
+                              const capture::Positions& positions) {
+  std::vector<float> out(normals.rgb.size() / 3);
+  for (int y = 0; y < normals.height; ++y)
+    for (int x = 0; x < normals.width; ++x) {
+      const auto n = normals.at(x, y);
+      out[static_cast<std::size_t>(y) * static_cast<std::size_t>(normals.width) + static_cast<std::size_t>(x)] =
+          static_cast<float>(
+              glm::dot(glm::dvec3(n[0], n[1], n[2]), capture::shine_of(light, positions.at(x, y)).to_light));
     }
-    return out;
-  }
+  return out;
+}
 
- private:
-  const capture::Capture& capture_;
-  image::Picture normals_, positions_;
-};
+constexpr const char* kAsker = "likeness realis bake";
 
 }  // namespace
 
 Renderer renders_of_variant(const capture::Capture& capture, std::size_t camera, std::size_t variant) {
-  return [&capture, camera, variant, cosines = Cosines(capture, camera)](std::size_t light) -> Rendered {
-    return {capture::read_render(capture, capture.variants[variant], camera, light), cosines.of(light)};
+  image::Picture normals;
+  if (!layer_file(capture, camera, capture::Layer::kNormal).empty()) normals = capture::read_normals(capture, camera);
+  return [&capture, camera, variant, normals = std::move(normals),
+          positions = capture::Positions(capture, camera, kAsker)](std::size_t light) -> Rendered {
+    return {capture::read_render(capture, capture.variants[variant], camera, light),
+            cosines_of(capture.lights[light], normals, positions)};
+  };
+}
+
+Renderer renders_of_fit(const capture::Capture& capture, const capture_fit::Fit& fit) {
+  return [&capture, &fit, relighting = std::make_shared<capture_fit::Relighting>(capture, fit),
+          positions = capture::Positions(capture, fit.camera, kAsker)](std::size_t light) -> Rendered {
+    return {relighting->render(light), cosines_of(capture.lights[light], fit.normals, positions)};
   };
 }
 

@@ -2,30 +2,15 @@
 
 #include <algorithm>
 #include <string>
-#include <variant>
 
-#include <glm/geometric.hpp>
 #include <tbb/parallel_for.h>
 
 #include "render/capture/pixels.h"
+#include "render/capture/sight.h"
 #include "render/files/files.h"
 #include "render/files/interrupt.h"
 
 namespace likeness::realis {
-namespace {
-
-// Towards a light, from the origin: where captures have their subject.
-bool is_placed(const capture::Light& light, glm::dvec3& to_light) {
-  if (const auto* distant = std::get_if<capture::DistantLight>(&light.place)) to_light = distant->to_light;
-  else if (const auto* near = std::get_if<capture::NearLight>(&light.place)) to_light = near->position;
-  else return false;
-  const double length = glm::length(to_light);
-  if (!(length > 0)) return false;
-  to_light /= length;
-  return true;
-}
-
-}  // namespace
 
 Subject read_subject(const capture::Capture& capture, std::size_t camera, const Renderer& render,
                      std::span<const std::size_t> leave_out, const GoesOn& goes_on) {
@@ -35,10 +20,11 @@ Subject read_subject(const capture::Capture& capture, std::size_t camera, const 
   s.camera = camera;
   s.width = capture.cameras[camera].width, s.height = capture.cameras[camera].height;
   for (std::size_t light = 0; light < capture.lights.size(); ++light) {
-    glm::dvec3 to_light;
-    if (frames.frame(camera, light) == capture::kAbsent || !is_placed(capture.lights[light], to_light)) continue;
+    if (frames.frame(camera, light) == capture::kAbsent || !capture::has_place(capture.lights[light])) continue;
     if (std::find(leave_out.begin(), leave_out.end(), light) != leave_out.end()) continue;
-    s.lights.push_back(light), s.to_lights.push_back(to_light);
+    const capture::Shine shine = capture::shine_of(capture.lights[light], glm::dvec3(0));
+    if (!(shine.irradiance > 0)) continue;
+    s.lights.push_back(light), s.to_lights.push_back(shine.to_light), s.irradiance.push_back(shine.irradiance);
   }
   if (s.lights.empty())
     throw files::UsageError(

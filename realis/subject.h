@@ -31,11 +31,13 @@ struct Subject {
   int width = 0, height = 0;
   std::vector<std::uint32_t> pixels;  // of each texel, in the picture: those inside the mask
   std::vector<std::size_t> lights;    // in Capture::lights: those with a photograph and a place
-  std::vector<glm::dvec3> to_lights;  // unit, from the middle of the subject
+  std::vector<glm::dvec3> to_lights;  // unit, from the world's origin: where captures have their subject
+  std::vector<double> irradiance;  // there, of each light of intensity 1: 1, or 1 / d^2 of a near one [1/m^2]; empty: 1
   std::vector<std::array<float, 3>> photo, render;
   std::vector<float> cosine;
   std::vector<float> weight;  // [0, 1], how far the photo can be trusted: 0 where it is clipped, black or not finite
 
+  double irradiance_of(std::size_t light) const { return irradiance.empty() ? 1 : irradiance[light]; }
   std::size_t texels() const { return pixels.size(); }
   std::size_t samples_of(std::size_t texel) const { return texel * lights.size(); }  // the first of them
 };
