@@ -16,10 +16,11 @@ struct RealisProperties {
   Vec3<S> normal{S(0), S(0), S(1)};  // unit, both in one space
 };
 
-// 0 up to `low`, 1 from `high` on, with slope 0 at both. low < high.
+// 1 up to `low`, 0 from `high` on, with slope 0 at both: 1 - smoothstep, written from where it ends, so that small
+// weights keep their digits. low < high.
 template <Scalar S>
-S smoothstep(double low, double high, const S& x) {
-  const S t = clamp01(S((x - constant<S>(low)) * constant<S>(1 / (high - low))));
+S fading(const Interval& between, const S& x) {
+  const S t = clamp01(S((constant<S>(between.high) - x) * constant<S>(1 / (between.high - between.low))));
   return t * t * (S(3) - S(2) * t);
 }
 
@@ -50,11 +51,9 @@ struct RealisFade {
   template <Scalar S>
   S weight(const Rgb<S>& baked_color, const S& baked_roughness, const Rgb<S>& color_now, const S& roughness_now,
            const S& versine) const {
-    const S color = smoothstep(base_color.low, base_color.high, base_color_distance(baked_color, color_now));
     const S difference = larger(S(baked_roughness - roughness_now), S(roughness_now - baked_roughness));
-    const S rough = smoothstep(roughness.low, roughness.high, difference);
-    const S turned = smoothstep(normal.low, normal.high, versine);
-    return (S(1) - color) * (S(1) - rough) * (S(1) - turned);
+    return fading(base_color, base_color_distance(baked_color, color_now)) * fading(roughness, difference) *
+           fading(normal, versine);
   }
 };
 

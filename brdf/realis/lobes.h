@@ -34,18 +34,22 @@ inline constexpr std::array<double, 7> kDecay<7>{-0.00029823027919589471, 0.0028
                                                  0.073069269762299646,    -0.25430064581895077,  0.66273304929363095,
                                                  -1.1512923663328962};
 
-// WindowedGaussian by t = sharpness (1 - cos) / ln 100 >= 0, without an exponential: (1 - t)^2 (1 + 2 t) p(t)^4, for
-// exp(-t ln 100) W(1 - t). t above 1 counts as 1; the value is then 0. It is 1 at t = 0.
+// WindowedGaussian by t = sharpness (1 - cos) / ln 100, without an exponential: (1 - t)^2 (1 + 2 t) p(t)^4, for
+// exp(-t ln 100) W(1 - t). t in [0, 1]; it is 1 at t = 0 and 0 at t = 1.
 // Error   relative to the value: 2.8e-3 of degree 3, 7.1e-6 of 5, 1.0e-8 of 7, and 2e-6 of float's own. Rounding a
 //         coefficient to eight bits costs 4e-3.
 template <int kDegree = 5, Scalar S>
-S windowed_decay(const S& beyond) {
-  const S t = smaller(beyond, S(1)), left = S(1) - t;
+S windowed_decay_within(const S& t) {
   S p = constant<S>(kDecay<kDegree>[0]);
   for (int i = 1; i < kDegree; ++i) p = multiply_add(p, t, constant<S>(kDecay<kDegree>[i]));
   p = multiply_add(p, t, S(1));
-  const S p2 = p * p;
+  const S left = S(1) - t, p2 = p * p;
   return left * left * multiply_add(S(2), t, S(1)) * (p2 * p2);
+}
+// The same for every t >= 0; 0 from 1 on.
+template <int kDegree = 5, Scalar S>
+S windowed_decay(const S& t) {
+  return windowed_decay_within<kDegree>(smaller(t, S(1)));
 }
 
 // The lobes of an asset as the run time reads them: 32 bytes each. A byte names a lobe, and every byte may: lobes past
