@@ -259,17 +259,17 @@ ReportSummary write_report(const capture::Capture& capture, const ReportOptions&
                         " are below, as light, so that exposure and view can still be changed. Space flips, W wipes, D "
                         "subtracts, the arrows go on, ? lists the keys.") +
            "</p>" +
-           page::element("p", "The renders are compared as they are. All of the capture's renders by " +
-                                  signed_stops(std::log2(capture_gain[1])) +
-                                  " stops would come nearest to its photographs (median of at most 16 pairs). Small "
-                                  "pictures and FLIP: EV " +
-                                  signed_stops(state.ev) +
-                                  (data["capture"]["pipeline"].contains("by") ? ", found for the worst photo" : "") +
-                                  ", view " + state.view + ".") +
+           page::element(
+               "p",
+               "The renders are compared as they are. One gain for the whole capture would bring them nearest to the "
+               "photographs at " +
+                   signed_stops(std::log2(capture_gain[1])) +
+                   " stops (median of at most 16 pairs). Small pictures and FLIP: EV " + signed_stops(state.ev) +
+                   (data["capture"]["pipeline"].contains("by") ? ", found for the worst photo" : "") + ", view " +
+                   state.view + ".") +
            table + "<div class=\"pairs\">" + cards + "</div>";
-  if (!capture.citation.empty() || !capture.license.empty())
-    intro +=
-        page::element("p", "Data: " + capture.citation + (capture.license.empty() ? "" : " (" + capture.license + ")"));
+  if (!capture.citation.empty()) intro += page::element("p", "Data: " + capture.citation);
+  if (!capture.license.empty()) intro += page::element("p", "License of the data: " + capture.license);
 
   std::string html(k_report_html);
   html = replaced(std::move(html), "{{title}}", page::escape(title));

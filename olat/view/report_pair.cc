@@ -99,8 +99,8 @@ std::string pair_card(const State& state, const Pair& pair, const Crop& crop, st
   State link;
   link.camera = state.camera;
   link.light = state.light;
-  const std::string name = state.camera + ", light " + state.light + ": " + state.metric + " p95 " +
-                           page::number(summary.p95) + (row.unit == "1" ? "" : " " + std::string(row.unit));
+  const std::string name = state.camera + ", light " + state.light + ": 95 % within " + page::number(summary.p95) +
+                           " " + (row.unit == "1" ? state.metric : std::string(row.unit));
   return "<a class=\"pair\" href=\"#" + page::escape(olat_pair::text_of(link)) + "\">" + page::element("b", name) +
          figure(in_mode(Mode::kPhoto), "photo") + figure(in_mode(Mode::kRender), "render") +
          figure(in_mode(Mode::kDifference), state.metric + (row.is_signed ? ", ±" : ", 0 to ") + scale) +

@@ -5,7 +5,7 @@ export class ReportSource {
   constructor(data) {
     this.data = data;
   }
-  async capture() { return { ...this.data.capture, partial: true }; }
+  async capture() { return { ...this.data.capture, partial: true, first: this.data.pairs[0] }; }
   async tables() { return this.data.tables; }
   async shader() { return this.data.shader; }
   async pixels(kind, where, level) {

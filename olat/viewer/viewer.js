@@ -33,6 +33,7 @@ class Viewer {
 
     const query = report ? location.hash.slice(1) : location.search, { state, faults } = stateOf(query);
     this.state = state;
+    if (capture.first && !state.camera) Object.assign(state, { camera: capture.first.camera, light: capture.first.light });
     if (!new URLSearchParams(query).has('ev')) state.ev = kept(capture.pipeline.ev);
     this.exposing = state.ev === 0 && !new URLSearchParams(query).has('ev');
     this.seen = new Set();

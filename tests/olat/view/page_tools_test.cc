@@ -333,7 +333,7 @@ TEST_F(PageTools, ShowSmallPicturesAndFlipInAReport) {
                      "i.src.startsWith('data:image/png') && i.naturalWidth === 64 && i.alt).length)"),
             "[4,4]");
   EXPECT_THAT(evaluate("document.querySelector('.intro').textContent"),
-              HasSubstr("All of the capture's renders by +0.0"));
+              HasSubstr("nearest to the photographs at +0.0"));
   const double want = percentile_of("light=l2");
   EXPECT_EQ(number("likeness.state.ev"), want) << "of the worst photo";
   EXPECT_TRUE(says("hud", "(auto)"));
@@ -362,6 +362,19 @@ TEST_F(PageTools, ShowSmallPicturesAndFlipInAReport) {
                      "!r.name.startsWith('blob:')).length"),
             "0")
       << "nothing is asked for";
+}
+
+TEST_F(PageTools, OpenAReportAtItsWorstPair) {
+  make();
+  std::filesystem::copy_file(folder_.path() / "photos/c0/l2.exr", folder_.path() / "renders/truth/c0/l2.exr",
+                             std::filesystem::copy_options::overwrite_existing);
+  const std::filesystem::path file = folder_.path() / "report.html";
+  write_report(capture_, ReportOptions{.pairs = 1}, file);
+  browser_->open("file://" + file.string());
+  ASSERT_TRUE(wait("document.body.dataset.ready && likeness.complete")) << evaluate("document.body.innerText");
+  EXPECT_EQ(evaluate("likeness.state.camera + likeness.state.light"), "\"c1l2\"") << "of the first camera it has none";
+  EXPECT_EQ(evaluate("document.querySelector('#tag_left i').textContent"), "\"\"") << "and it is there";
+  EXPECT_EQ(evaluate("likeness.thumbs.all.length"), "1") << "no thumbnail of a camera that it has not";
 }
 
 }  // namespace
