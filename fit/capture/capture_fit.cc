@@ -23,7 +23,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 double since(Clock::time_point from) { return std::chrono::duration<double>(Clock::now() - from).count(); }
 
-constexpr std::size_t kCurvePixels = 4096;  // that tell how the surface departs from Lambert
+constexpr std::size_t kCurvePixels = 2048;  // that tell how the surface departs from Lambert
 constexpr std::size_t kBlock = 2048;        // pixels between two questions, whatever the number of threads
 constexpr double kNoTrust = 10 * std::numbers::pi / 180;  // standard error of a normal that is not trusted at all [rad]
 constexpr double kSameLight = 0.25 * std::numbers::pi / 180;  // [rad]

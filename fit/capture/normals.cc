@@ -21,7 +21,9 @@ constexpr double kWideHigh = 0.8;
 constexpr std::size_t kEnough = 6;  // samples for 3 numbers
 constexpr double kFlat = 1e-4;      // of the second moment: 0.01 rad about a plane, half a degree
 constexpr int kRounds = 12;         // of weights
-constexpr int kCurveRounds = 15;
+constexpr int kCurveRounds = 30;
+constexpr double kReach = 1.5;             // of a step of the curve: its way is long and straight; 3 is too far
+constexpr double kCurveStill = 1e-7;       // relative change that ends the rounds
 constexpr double kStill = 1e-7;            // [1], of the normal: 0.000006 degrees
 constexpr double kLeastCosine = 0.02;      // of a sample that tells about D: at smaller ones the quotient is noise
 constexpr double kLeastViewCosine = 0.01;  // a camera sees what faces it
@@ -284,6 +286,7 @@ Curve curve_of(const Stack& sample, const Sites& sites, double noise) {
             quotient);
       }
     }
+    const Curve before = curve;
     // Bins with few samples take the value of the nearest that has enough.
     constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
     double sum = 0, count = 0;
@@ -296,13 +299,17 @@ Curve curve_of(const Stack& sample, const Sites& sites, double noise) {
     }
     if (!(sum > 0)) return Curve();
     const auto known = curve.values;
+    double moved = 0;
     for (std::size_t i = 0; i <= Curve::kBins; ++i) {
       for (std::size_t away = 0; std::isnan(curve.values[i]); ++away) {
         if (i >= away && !std::isnan(known[i - away])) curve.values[i] = known[i - away];
         else if (i + away <= Curve::kBins && !std::isnan(known[i + away])) curve.values[i] = known[i + away];
       }
-      curve.values[i] = std::clamp(curve.values[i] * count / sum, kCurveLow, kCurveHigh);
+      const double step = std::clamp(curve.values[i] * count / sum, kCurveLow, kCurveHigh) / before.values[i];
+      curve.values[i] = std::clamp(before.values[i] * std::pow(step, kReach), kCurveLow, kCurveHigh);
+      moved = std::max(moved, std::abs(step - 1));
     }
+    if (moved < kCurveStill) break;
   }
   return curve;
 }
