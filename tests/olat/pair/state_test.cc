@@ -52,6 +52,13 @@ TEST(State, ComesBackFromItsTextFieldByField) {
   }
 }
 
+TEST(State, TellsWhetherATextNamesAFieldIfOnlyWithItsDefault) {
+  EXPECT_TRUE(has_field("light=3&ev=0", "ev"));
+  EXPECT_TRUE(has_field("{\"ev\": 0}", "ev"));
+  EXPECT_FALSE(has_field("light=ev&view=agx", "ev"));
+  EXPECT_FALSE(has_field("", "ev"));
+}
+
 TEST(State, KeepsFourDecimalsOfANumber) {
   EXPECT_EQ(text_of(state_of("ev=0.123449")), "ev=0.1234");
   EXPECT_EQ(text_of(state_of("ev=-0.00001")), "");

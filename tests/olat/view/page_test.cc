@@ -154,6 +154,10 @@ TEST_F(Page, ChangesExposureInTheDirectionThatTheTableSays) {
   EXPECT_TRUE(wait("document.getElementById('hud').textContent.includes('(auto)')"));
   press("e");
   EXPECT_TRUE(wait("!document.getElementById('hud').textContent.includes('auto')")) << "chosen by hand now";
+  EXPECT_EQ(evaluate("(async () => { const asked = likeness.expose('average'); likeness.change({ev: 7}); await asked;"
+                     " return likeness.state.ev; })()"),
+            "7")
+      << "who chooses while the program looks has the last word";
 }
 
 TEST_F(Page, ShowsTheSameHashOnBothPanesAndAsTheProgram) {
