@@ -16,6 +16,7 @@
 #include "render/capture/pixels.h"
 #include "render/files/files.h"
 #include "render/files/interrupt.h"
+#include "render/page/html.h"
 
 namespace likeness::capture_fit {
 namespace {
@@ -160,9 +161,9 @@ struct Fitter {
     for (Face& face : faces)
       for (double& shine : face.shine) shine *= fit.exposure;
     fit.notes.push_back(
-        "The brightest surfaces would reflect " + files::number_text(std::round(*at * 1e4) / 1e4) +
+        "The brightest surfaces would reflect " + page::number(*at) +
         " of the light if the capture's unit light were an irradiance of 1, so its light is taken as " +
-        files::number_text(std::round(fit.exposure * 1e4) / 1e4) +
+        page::number(fit.exposure) +
         " of it. Base colors and the strength of the specular are relative to that; renders are not changed by it.");
   }
 

@@ -180,7 +180,11 @@ ParameterCells cells_of(const Candidate& candidate, const ParameterValue& parame
                  (note.find("does not") == std::string::npos ? std::string(channel) : "") + note;
     if (note.find("does not") != std::string::npos) last_note = note;
   }
-  if (!candidate.estimates.empty() && !out.fitted) out.notes = "left at its default, not fitted";
+  if (!candidate.estimates.empty() && !out.fitted) {
+    const Estimate* const estimate = estimate_of(candidate, row.name, color ? 0 : -1);
+    out.notes =
+        estimate && !estimate->why.empty() ? "not fitted: " + escape(estimate->why) : "left at its default, not fitted";
+  }
   return out;
 }
 
