@@ -131,7 +131,7 @@ void residuals(const RealisLobes& lobes, const RealisTexel<kChannels>* texels, c
     const std::size_t block = count - first < kBlock ? count - first : kBlock;
     for (std::size_t i = 0; i < block; ++i) {
       const RealisTexel<kChannels>& texel = texels[first + i];
-      const Vec3<B> v(B(x[first + i]), B(y[first + i]), B(z[first + i]));
+      const Vec3<B> v{B(x[first + i]), B(y[first + i]), B(z[first + i])};
       for (std::size_t j = 0; j < kRealisDominant; j += B::size) {
         const std::size_t entry = i * kRealisDominant + j;
         const auto lobe = Lanes::columns(lobes.lobes.data(), texel.lobes.data() + j);
