@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -16,8 +17,6 @@ namespace {
 using test::TemporaryFolder;
 using testing::HasSubstr;
 
-const GoesOn kGo = [](double, std::string_view) { return true; };
-const Options kEstimate{.normals = NormalSource::kEstimate};
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 
 test::SphereCapture lambert_sphere(std::vector<glm::dvec3> lights) {
@@ -63,7 +62,8 @@ TEST(HardCases, OneLightOrTwoGiveNoNormalAndSaySo) {
 TEST(HardCases, LightsInOnePlaneGiveNoNormal) {
   const TemporaryFolder folder;
   std::vector<glm::dvec3> lights;
-  for (int i = -4; i <= 4; ++i) lights.emplace_back(0.2 * i, 0, 1);
+  // A tenth of a degree off it, as measured directions are.
+  for (int i = -4; i <= 4; ++i) lights.emplace_back(0.2 * i, i % 2 == 0 ? 0.002 : -0.002, 1);
   const Fit fit = fit_capture(make_sphere(folder / "c", lambert_sphere(lights)), 0, kEstimate, kGo);
   expect_sound(fit);
   EXPECT_EQ(fit.counts.without_normal, fit.counts.pixels);
@@ -119,6 +119,20 @@ TEST(HardCases, NotFiniteNegativeAndClippedSamplesAreLeftOutAndCounted) {
   EXPECT_EQ(fit.counts.clipped, fit.counts.pixels);
   // Two photos are left out and one is wrong; the others have no noise.
   EXPECT_NEAR(fit.normals.at(12, 12)[2], test::sphere_normal(24, 12, 12).z, 1e-5);
+}
+
+TEST(HardCases, AFullSensorSaysNothingOfTheLightAboveIt) {
+  const TemporaryFolder folder;
+  auto want = lambert_sphere(test::spiral_of_lights(24));
+  want.spoil = [](std::size_t, int, int, float* rgb) {
+    for (int c = 0; c < 3; ++c) rgb[c] = std::min(rgb[c], 0.125f);
+  };
+  capture::Capture capture = make_sphere(folder / "c", want);
+  for (capture::Frame& frame : capture.frames) frame.clip = 0.125;
+  const Fit fit = fit_capture(capture, 0, kEstimate, kGo);
+  expect_sound(fit);
+  EXPECT_GT(fit.counts.clipped, 1000u);  // a tenth of the samples; where they are most, half of the lights
+  for (const int at : {6, 12, 14}) EXPECT_NEAR(fit.normals.at(at, 12)[2], test::sphere_normal(24, at, 12).z, 1e-4);
 }
 
 TEST(HardCases, OneLightAHundredTimesBrighterDoesNotMoveThem) {

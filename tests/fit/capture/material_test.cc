@@ -14,8 +14,6 @@ namespace {
 
 using test::TemporaryFolder;
 
-const GoesOn kGo = [](double, std::string_view) { return true; };
-
 test::SphereCapture callisto_sphere() {
   test::SphereCapture out{.lights = test::spiral_of_lights(48, 75), .with_normals = true};
   out.material.specular = 0.6;

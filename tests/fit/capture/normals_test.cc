@@ -19,9 +19,6 @@ namespace {
 
 using test::TemporaryFolder;
 
-const GoesOn kGo = [](double, std::string_view) { return true; };
-const Options kEstimate{.normals = NormalSource::kEstimate};
-
 glm::dvec3 found_at(const Fit& fit, int x, int y) {
   const auto n = fit.normals.at(x, y);
   return {n[0], n[1], n[2]};

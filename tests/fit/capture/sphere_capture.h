@@ -10,6 +10,7 @@
 
 #include "brdf/about_normal.h"
 #include "brdf/callisto.h"
+#include "fit/capture/capture_fit.h"
 #include "render/capture/capture.h"
 #include "render/image/picture.h"
 #include "render/image/write.h"
@@ -122,3 +123,10 @@ inline capture::Capture make_sphere(const std::filesystem::path& root, const Sph
 }
 
 }  // namespace likeness::test
+
+namespace likeness::capture_fit {
+
+inline const GoesOn kGo = [](double, std::string_view) { return true; };
+inline const Options kEstimate{.normals = NormalSource::kEstimate};
+
+}  // namespace likeness::capture_fit
