@@ -130,6 +130,21 @@ double gain_of(const CaptureFaults& faults, std::size_t light) {
   return std::exp2(ev);
 }
 
+// Of every object's radiance for a light of irradiance 1 (near lights: at 1 m): a skin-like Lambert surface that faces it.
+constexpr std::array kObjectColor{0.20, 0.11, 0.08};
+
+// Something that is no part of the subject, before the camera: left of the middle and above it.
+void cover(const CaptureFaults& faults, std::size_t light, Picture& picture) {
+  for (const CaptureFaults::Object& object : faults.objects) {
+    if (object.light != light) continue;
+    const double radius = 0.5 * object.size * std::min(picture.width, picture.height);
+    for (int y = 0; y < picture.height; ++y)
+      for (int x = 0; x < picture.width; ++x)
+        if (std::hypot(x + 0.5 - 0.35 * picture.width, y + 0.5 - 0.35 * picture.height) < radius)
+          for (std::size_t c = 0; c < 3; ++c) picture.at(x, y)[c] = static_cast<float>(kObjectColor[c]);
+  }
+}
+
 // What the camera does to the light, pixel by pixel, with random numbers of this frame's own.
 void expose(const CaptureFaults& faults, double gain, Random random, Picture& picture) {
   const double read = faults.read_noise / (faults.full_well > 0 ? faults.full_well : 1000);
@@ -189,6 +204,7 @@ std::string truth_text(const CaptureOptions& options, const Capture& capture, co
   if (f.shift_x != 0 || f.shift_y != 0) faults["shift_px"] = {f.shift_x, f.shift_y};
   for (const auto& one : f.gains) faults["light_gain_ev"][capture.lights[one.light].id] = one.ev;
   for (const auto& one : f.swaps) faults["swapped"].push_back({capture.lights[one[0]].id, capture.lights[one[1]].id});
+  for (const auto& one : f.objects) faults["objects"][capture.lights[one.light].id] = one.size;
   if (f.shadow_offset_m != 0) faults["shadow_offset_m"] = f.shadow_offset_m;
   if (f.residue != 0) faults["residue"] = f.residue;
   if (f.read_noise > 0 || f.full_well > 0) {
@@ -310,6 +326,7 @@ MadeCapture make_capture(const CaptureOptions& options) {
       const std::size_t source = shown[l];
       Picture photo = shoot(options, capture.cameras[c], capture.lights[source],
                             {faults.shift_x, faults.shift_y, faults.shadow_offset_m, faults.residue});
+      cover(faults, source, photo);
       expose(faults, gain_of(faults, source), Random(options.seed, 100 + pair), photo);
       capture::Frame& frame = capture.frames.emplace_back();
       frame.camera = c;

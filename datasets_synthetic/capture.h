@@ -16,7 +16,7 @@
 namespace likeness::datasets_synthetic {
 
 // Faults of photographs, or of what the capture's files say of them. A pair's faults act in this order: where the shadow
-// falls, residue, mirror and shift (the geometry of the picture), light gain, noise, black, clip, curve, swap.
+// falls, residue, mirror and shift (the geometry of the picture), object, light gain, noise, black, clip, curve, swap.
 struct CaptureFaults {
   struct LightGain {
     std::size_t light = 0;
@@ -25,6 +25,13 @@ struct CaptureFaults {
   double shift_x = 0, shift_y = 0;  // [pixel]: the photograph shows the subject that much to the right and down
   std::vector<LightGain> gains;     // the light was brighter than lights.json says
   std::vector<std::array<std::size_t, 2>> swaps;  // each one's photographs are called by the other's id
+  // A disc before the subject while one light shines, as wide as that share of the picture's shorter side, left of
+  // the middle and above it.
+  struct Object {
+    std::size_t light = 0;
+    double size = 0;
+  };
+  std::vector<Object> objects;
   double shadow_offset_m = 0;                     // the shadow is cast by a ball that much to the right (world's x)
   double residue = 0;     // times a GGX lobe of alpha 0.2 and F = 1 that the renders do not have
   double read_noise = 0;  // standard deviation of a dark pixel [electron]

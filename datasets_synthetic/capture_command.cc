@@ -24,7 +24,7 @@ using files::UsageError;
 
 struct CaptureCommand {
   std::string folder, size = "256x256", shift, curve, material;
-  std::vector<std::string> gains, swaps;
+  std::vector<std::string> gains, swaps, objects;
   double cameras = 1, lights = 16, seed = 0, missing = 0, duplicated = 0;
   bool overwrites = false;
   CaptureOptions options;
@@ -84,6 +84,10 @@ void run(CaptureCommand asked) {
   for (const std::string& text : asked.swaps) {
     const auto swap = two_of("swap", text, ',', "3,7");
     faults.swaps.push_back({light_of("swap", swap[0], options.lights), light_of("swap", swap[1], options.lights)});
+  }
+  for (const std::string& text : asked.objects) {
+    const auto object = two_of("object", text, '=', "3=0.2 (under light 3, a fifth of the picture wide)");
+    faults.objects.push_back({light_of("object", object[0], options.lights), within("object", object[1], 0, 2)});
   }
   within("shadow-offset-m", faults.shadow_offset_m, -0.2, 0.2);
   within("residue", faults.residue, 0, 10);
@@ -167,6 +171,10 @@ void add_make_capture(CLI::App& make, int& exit_code) {
       ->allow_extra_args(false)
       ->group(group);
   sub->add_option("--swap", asked->swaps, "A,B: the photographs of two lights go by each other's name; may be repeated")
+      ->allow_extra_args(false)
+      ->group(group);
+  sub->add_option("--object", asked->objects,
+                  "LIGHT=SIZE: a disc of that share of the picture before the subject, under one light; may be repeated")
       ->allow_extra_args(false)
       ->group(group);
   sub->add_option("--shadow-offset-m", faults.shadow_offset_m,
