@@ -23,10 +23,12 @@ void for_each_drawn(const RealisLobes& lobes, const RealisTexel<kChannels>& texe
   float total = 0;
   std::size_t last = 0;
   for (std::size_t j = 0; j < kRealisDominant; ++j) {
-    int largest = 0;
-    for (const auto& channel : texel.coefficients) largest = std::max(largest, std::abs(channel[j] - kRealisZero));
+    float largest = 0;
+    for (std::size_t c = 0; c < kChannels; ++c)
+      largest = std::max(largest, lobes.lobes[texel.lobes[j]].scale[c] *
+                                      static_cast<float>(std::abs(texel.coefficients[c][j] - kRealisZero)));
     const float before = total;
-    ends[j] = total += lobes.lobes[texel.lobes[j]].scale * static_cast<float>(largest);
+    ends[j] = total += largest;
     if (total > before) last = j;
   }
   if (!(total > 0)) return;
@@ -46,9 +48,10 @@ RealisValue<S, kChannels> jittered_residual(const RealisLobes& lobes, const Real
   sums.fill(S(0.0));
   for_each_drawn(lobes, texel, u, count, [&](std::size_t j, float share) {
     const std::size_t k = texel.lobes[j];
-    const S step = constant<S>(share * lobes.lobes[k].scale) * lobes.eval(k, direction);
+    const S g = lobes.eval(k, direction);
     for (std::size_t c = 0; c < kChannels; ++c)
-      sums[c] = sums[c] + constant<S>(texel.coefficients[c][j] - kRealisZero) * step;
+      sums[c] = sums[c] + constant<S>(texel.coefficients[c][j] - kRealisZero) *
+                              (constant<S>(share * lobes.lobes[k].scale[c]) * g);
   });
   return realis_texel::value_of(sums);
 }

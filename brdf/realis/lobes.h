@@ -58,16 +58,23 @@ struct RealisLobes {
   static constexpr std::size_t kMost = 256;
 
   struct alignas(32) Lobe {
-    float x = 0, y = 0, z = 1;  // axis, unit, model space
-    float reach = 0;            // sharpness / (2 ln 100): t = reach |axis - v|^2
-    float scale = 0;            // multiplier / 127: what a step of a coefficient's byte is [1/sr]
+    float x = 0, y = 0, z = 1;     // axis, unit, model space
+    float reach = 0;               // sharpness / (2 ln 100): t = reach |axis - v|^2
+    std::array<float, 3> scale{};  // multiplier / 127 of each channel: what a step of a coefficient's byte is [1/sr]
   };
   std::array<Lobe, kMost> lobes{};
 
-  // `axis` unit; `sharpness` >= 0; `multiplier` [1/sr] of coefficient.h.
+  // `axis` unit; `sharpness` >= 0; `multiplier` [1/sr] of coefficient.h, of each channel or of all. Luminance is red.
+  void place(std::size_t index, const Vec3<float>& axis, float sharpness, const Rgb<float>& multiplier) {
+    const auto step = [](float of) { return static_cast<float>(of / 127.0); };
+    lobes[index] = {axis.x,
+                    axis.y,
+                    axis.z,
+                    static_cast<float>(sharpness / (2 * WindowedGaussian<double>::kEnd)),
+                    {step(multiplier.r), step(multiplier.g), step(multiplier.b)}};
+  }
   void place(std::size_t index, const Vec3<float>& axis, float sharpness, float multiplier) {
-    lobes[index] = {axis.x, axis.y, axis.z, static_cast<float>(sharpness / (2 * WindowedGaussian<double>::kEnd)),
-                    static_cast<float>(multiplier / 127.0)};
+    place(index, axis, sharpness, Rgb<float>(multiplier));
   }
 
   // G of a lobe towards a unit vector in model space, [0, 1]. From the difference of the vectors, which keeps its digits
@@ -82,13 +89,18 @@ struct RealisLobes {
 
 // scale G of every lobe towards one direction: what a step of a coefficient's byte adds [1/sr]. Of distant lights it is
 // made once a light, and a texel then costs eight look-ups.
+template <std::size_t kChannels = 1>
 struct RealisTowards {
-  std::array<float, RealisLobes::kMost> steps{};
+  std::array<std::array<float, RealisLobes::kMost>, kChannels> steps{};
 
   RealisTowards() = default;
   RealisTowards(const RealisLobes& lobes, const Vec3<float>& direction) {
-    for (std::size_t k = 0; k < RealisLobes::kMost; ++k)
-      if (lobes.lobes[k].scale != 0) steps[k] = lobes.lobes[k].scale * lobes.eval(k, direction);
+    for (std::size_t k = 0; k < RealisLobes::kMost; ++k) {
+      const auto& scale = lobes.lobes[k].scale;
+      if (scale[0] == 0 && scale[1] == 0 && scale[2] == 0) continue;
+      const float g = lobes.eval(k, direction);
+      for (std::size_t c = 0; c < kChannels; ++c) steps[c][k] = scale[c] * g;
+    }
   }
 };
 

@@ -57,22 +57,21 @@ RealisValue<S, kChannels> residual(const RealisLobes& lobes, const RealisTexel<k
   sums.fill(S(0.0));
   for (std::size_t j = 0; j < kRealisDominant; ++j) {
     const std::size_t k = texel.lobes[j];
-    const S step = constant<S>(lobes.lobes[k].scale) * lobes.eval(k, direction);
+    const S g = lobes.eval(k, direction);
     for (std::size_t c = 0; c < kChannels; ++c)
-      sums[c] = sums[c] + constant<S>(texel.coefficients[c][j] - kRealisZero) * step;
+      sums[c] =
+          sums[c] + constant<S>(texel.coefficients[c][j] - kRealisZero) * (constant<S>(lobes.lobes[k].scale[c]) * g);
   }
   return realis_texel::value_of(sums);
 }
 
 // The same towards a direction that many texels share.
 template <std::size_t kChannels>
-RealisValue<float, kChannels> residual(const RealisTowards& towards, const RealisTexel<kChannels>& texel) {
+RealisValue<float, kChannels> residual(const RealisTowards<kChannels>& towards, const RealisTexel<kChannels>& texel) {
   std::array<float, kChannels> sums{};
-  for (std::size_t j = 0; j < kRealisDominant; ++j) {
-    const float step = towards.steps[texel.lobes[j]];
+  for (std::size_t j = 0; j < kRealisDominant; ++j)
     for (std::size_t c = 0; c < kChannels; ++c)
-      sums[c] += static_cast<float>(texel.coefficients[c][j] - kRealisZero) * step;
-  }
+      sums[c] += static_cast<float>(texel.coefficients[c][j] - kRealisZero) * towards.steps[c][texel.lobes[j]];
   return realis_texel::value_of(sums);
 }
 

@@ -20,14 +20,17 @@ struct Lanes {
 
   // Rows of RealisLobes as columns, those of the lobes that B::size bytes name.
   struct Columns {
-    B x, y, z, reach, scale;
+    B x, y, z, reach, scale[3];
   };
   static Columns columns(const RealisLobes::Lobe* lobes, const std::uint8_t* numbers) {
     const auto column = [&](float RealisLobes::Lobe::* part) {
       return of_each([&](std::size_t j) { return lobes[numbers[j]].*part; });
     };
     using Lobe = RealisLobes::Lobe;
-    return {column(&Lobe::x), column(&Lobe::y), column(&Lobe::z), column(&Lobe::reach), column(&Lobe::scale)};
+    const auto scale = [&](std::size_t channel) {
+      return of_each([&](std::size_t j) { return lobes[numbers[j]].scale[channel]; });
+    };
+    return {column(&Lobe::x), column(&Lobe::y), column(&Lobe::z), column(&Lobe::reach), {scale(0), scale(1), scale(2)}};
   }
   static B numbers(const std::uint8_t* bytes) {
     return of_each([&](std::size_t j) { return float(bytes[j]); });
@@ -62,7 +65,7 @@ struct Lanes<xsimd::batch<float, A>> {
   static_assert(B::size == kRealisDominant, "eight lobes do not fill a batch of this width: take eight lanes");
 
   struct Columns {
-    B x, y, z, reach, scale;
+    B x, y, z, reach, scale[3];
   };
   static Columns columns(const RealisLobes::Lobe* lobes, const std::uint8_t* numbers) {
     const auto two = [&](int j, int part) {  // lobe j in the lower half, j + 4 in the upper one
@@ -73,11 +76,14 @@ struct Lanes<xsimd::batch<float, A>> {
     const __m256 a = two(0, 0), b = two(1, 0), c = two(2, 0), d = two(3, 0);
     const __m256 xy = _mm256_unpacklo_ps(a, b), xy_next = _mm256_unpacklo_ps(c, d);
     const __m256 zr = _mm256_unpackhi_ps(a, b), zr_next = _mm256_unpackhi_ps(c, d);
-    const __m256 scale = _mm256_unpacklo_ps(two(0, 4), two(1, 4)),
-                 scale_next = _mm256_unpacklo_ps(two(2, 4), two(3, 4));
-    return {_mm256_shuffle_ps(xy, xy_next, 0x44), _mm256_shuffle_ps(xy, xy_next, 0xee),
-            _mm256_shuffle_ps(zr, zr_next, 0x44), _mm256_shuffle_ps(zr, zr_next, 0xee),
-            _mm256_shuffle_ps(scale, scale_next, 0x44)};
+    const __m256 e = two(0, 4), f = two(1, 4), g = two(2, 4), h = two(3, 4);  // what is not used is not made
+    const __m256 scale = _mm256_unpacklo_ps(e, f), scale_next = _mm256_unpacklo_ps(g, h);
+    return {_mm256_shuffle_ps(xy, xy_next, 0x44),
+            _mm256_shuffle_ps(xy, xy_next, 0xee),
+            _mm256_shuffle_ps(zr, zr_next, 0x44),
+            _mm256_shuffle_ps(zr, zr_next, 0xee),
+            {_mm256_shuffle_ps(scale, scale_next, 0x44), _mm256_shuffle_ps(scale, scale_next, 0xee),
+             _mm256_shuffle_ps(_mm256_unpackhi_ps(e, f), _mm256_unpackhi_ps(g, h), 0x44)}};
   }
   static B numbers(const std::uint8_t* bytes) {
     return _mm256_cvtepi32_ps(_mm256_cvtepu8_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(bytes))));
@@ -140,7 +146,7 @@ void residuals(const RealisLobes& lobes, const RealisTexel<kChannels>* texels, c
         xsimd::min(B(1.f), B(lobe.reach * square)).store_aligned(t + entry);
         for (std::size_t channel = 0; channel < kChannels; ++channel) {
           const B byte = Lanes::numbers(texel.coefficients[channel].data() + j);
-          ((byte - B(float(kRealisZero))) * lobe.scale).store_aligned(parts[channel] + entry);
+          ((byte - B(float(kRealisZero))) * lobe.scale[channel]).store_aligned(parts[channel] + entry);
         }
       }
     }
@@ -156,7 +162,7 @@ void residuals(const RealisLobes& lobes, const RealisTexel<kChannels>* texels, c
 
 // The same towards a direction that all texels share.
 template <class B = realis_texels::Widest, std::size_t kChannels>
-void residuals(const RealisTowards& towards, const RealisTexel<kChannels>* texels,
+void residuals(const RealisTowards<kChannels>& towards, const RealisTexel<kChannels>* texels,
                const std::array<float*, kChannels>& out, std::size_t count) {
   using Lanes = realis_texels::Lanes<B>;
   constexpr std::size_t kBlock = 16;
@@ -165,9 +171,9 @@ void residuals(const RealisTowards& towards, const RealisTexel<kChannels>* texel
     const std::size_t block = count - first < kBlock ? count - first : kBlock;
     for (std::size_t i = 0; i < block; ++i)
       for (std::size_t j = 0; j < kRealisDominant; j += B::size) {
-        const B step = Lanes::entries(towards.steps.data(), texels[first + i].lobes.data() + j);
         for (std::size_t channel = 0; channel < kChannels; ++channel) {
           const B byte = Lanes::numbers(texels[first + i].coefficients[channel].data() + j);
+          const B step = Lanes::entries(towards.steps[channel].data(), texels[first + i].lobes.data() + j);
           ((byte - B(float(kRealisZero))) * step).store_aligned(parts[channel] + i * kRealisDominant + j);
         }
       }

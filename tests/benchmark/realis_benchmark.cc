@@ -83,9 +83,9 @@ void exact(Surface& s) {
 void scalar(Surface& s) {
   for (std::size_t i = 0; i < kTexels; ++i) s.r[i] = residual(s.lobes, s.grey[i], Vec3<float>(s.x[i], s.y[i], s.z[i]));
 }
-RealisTowards towards_of(const Surface& s) { return {s.lobes, Vec3<float>(s.x[0], s.y[0], s.z[0])}; }
+RealisTowards<> towards_of(const Surface& s) { return {s.lobes, Vec3<float>(s.x[0], s.y[0], s.z[0])}; }
 void distant(Surface& s) {
-  const RealisTowards towards = towards_of(s);
+  const RealisTowards<> towards = towards_of(s);
   for (std::size_t i = 0; i < kTexels; ++i) s.r[i] = residual(towards, s.grey[i]);
 }
 void two_of_eight(Surface& s) {

@@ -119,7 +119,7 @@ TYPED_TEST(Lobes, HoldWhereTheyAreHard) {
 TYPED_TEST(Lobes, ThatWereNeverPlacedAddNothing) {
   const RealisLobes none;
   for (std::size_t k = 0; k < RealisLobes::kMost; ++k) {
-    EXPECT_EQ(none.lobes[k].scale, 0);
+    EXPECT_EQ(none.lobes[k].scale, (std::array<float, 3>{}));
     EXPECT_TRUE(std::isfinite(first(none.eval(k, vector_in<TypeParam>({0, 0, -1})))));
   }
 }

@@ -44,6 +44,27 @@ TYPED_TEST(Texel, OfThreeChannelsIsThreeOfOne) {
   }
 }
 
+TYPED_TEST(Texel, HasAMultiplierForEachChannel) {
+  Random random(7);
+  const Vec3<float> axis(0.6f, 0, 0.8f);
+  RealisLobes lobes;
+  lobes.place(3, axis, 5, Rgb<float>(0.5f, 0.25f, 2));
+  RealisTexel<3> texel;
+  texel.lobes[4] = 3;
+  for (auto& channel : texel.coefficients) channel[4] = 255;
+  for (int i = 0; i < 100; ++i) {
+    const Vec3<double> v = Vec3<double>(Vec3<float>(random.direction()));
+    const double g = lobe_by_definition(1 - versine_between(Vec3<double>(axis), v), 5);
+    const auto e = residual(lobes, texel, vector_in<TypeParam>(v));
+    EXPECT_NEAR(first(e.r), 0.5 * g, kOff);
+    EXPECT_NEAR(first(e.g), 0.25 * g, kOff);
+    EXPECT_NEAR(first(e.b), 2 * g, 2 * kOff);
+    const Rgb<float> towards = residual(RealisTowards<3>(lobes, Vec3<float>(v)), texel);
+    EXPECT_NEAR(towards.g, 0.25 * g, kOff);
+    EXPECT_NEAR(towards.b, 2 * g, 2 * kOff);
+  }
+}
+
 TYPED_TEST(Texel, WithoutLobesIsNothing) {
   Random random(3);
   const Drawn drawn = drawn_texel(random);
@@ -73,16 +94,16 @@ TEST(Towards, AreTheSameValuesForManyTexels) {
   for (int i = 0; i < 1000; ++i) {
     const Drawn drawn = drawn_texel(random, 40, i % 2 ? 96 : 256);
     const Vec3<float> v(random.direction(-1));
-    const RealisTowards towards(drawn.lobes, v);
+    const RealisTowards<1> towards(drawn.lobes, v);
     EXPECT_NEAR(residual(towards, drawn.texel), residual(drawn.lobes, drawn.texel, v), 5e-7 * magnitude(drawn.written));
     RealisTexel<3> rgb;
     rgb.lobes = drawn.texel.lobes;
     rgb.coefficients[1] = drawn.texel.coefficients[0];
-    const Rgb<float> e = residual(towards, rgb);
+    const Rgb<float> e = residual(RealisTowards<3>(drawn.lobes, v), rgb);
     EXPECT_EQ(e.r, 0);
     EXPECT_EQ(e.g, residual(towards, drawn.texel));
   }
-  EXPECT_EQ(residual(RealisTowards(), RealisTexel<1>()), 0);
+  EXPECT_EQ(residual(RealisTowards<1>(), RealisTexel<1>()), 0);
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ using Residuals = void (*)(const RealisLobes&, const RealisTexel<kChannels>*, co
                            const float* z, const std::array<float*, kChannels>& out, std::size_t count);
 
 template <std::size_t kChannels>
-using ResidualsTowards = void (*)(const RealisTowards&, const RealisTexel<kChannels>*,
+using ResidualsTowards = void (*)(const RealisTowards<kChannels>&, const RealisTexel<kChannels>*,
                                   const std::array<float*, kChannels>& out, std::size_t count);
 
 struct TexelsInSet {
