@@ -25,6 +25,7 @@
 #include "olat/render/command.h"
 #include "olat/view/command.h"
 #include "realis/command.h"
+#include "realis/report/command.h"
 #include "render/command/command.h"
 #include "render/cost/command.h"
 #include "render/files/files.h"
@@ -135,7 +136,7 @@ int main(int argc, char** argv) try {
   likeness::olat_check::add_check(olat, exit_code);
   likeness::olat_compare::add_compare(olat, exit_code);
   likeness::olat_view::add_view(olat, exit_code);
-  likeness::realis::add_realis(program, exit_code);
+  likeness::realis::add_report(likeness::realis::add_realis(program, exit_code), exit_code);
   program.footer(kFooter);  // last: a subcommand made after it would repeat it
 
   try {

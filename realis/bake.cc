@@ -80,22 +80,26 @@ void keep_largest(std::span<const double> coefficients, std::size_t lobes, std::
 }  // namespace
 
 Bake bake(const Subject& subject, const BakeOptions& options, const GoesOn& goes_on) {
-  Bake out;
-  out.channels = options.channels, out.floor = options.floor;
-  if (options.is_exact) {
-    out.basis = exact_basis(subject.to_lights);
+  if (options.is_exact) return bake_with(subject, exact_basis(subject.to_lights), options, goes_on);
+  std::vector<Choice> choices;
+  std::size_t chosen = 0;
+  const Sampled sampled = sampled_of(subject, options.seed);
+  if (options.lobes > 0) {
+    choices = {choose_basis(sampled, options.lobes)};
   } else {
-    const Sampled sampled = sampled_of(subject, options.seed);
-    if (options.lobes > 0) {
-      out.ladder = {choose_basis(sampled, options.lobes)};
-    } else {
-      out.ladder = ladder(sampled, options.most_lobes, [&](double share) {
-        if (!goes_on(share, "choosing lobes")) throw files::Interrupted();
-      });
-      out.chosen = chosen_of(out.ladder);
-    }
-    if (!out.ladder.empty()) out.basis = out.ladder[out.chosen].basis;
+    choices = ladder(sampled, options.most_lobes, [&](double share) {
+      if (!goes_on(share, "choosing lobes")) throw files::Interrupted();
+    });
+    chosen = chosen_of(choices);
   }
+  Bake out = bake_with(subject, choices.empty() ? Basis{} : choices[chosen].basis, options, goes_on);
+  out.ladder = std::move(choices), out.chosen = chosen;
+  return out;
+}
+
+Bake bake_with(const Subject& subject, Basis basis, const BakeOptions& options, const GoesOn& goes_on) {
+  Bake out;
+  out.basis = std::move(basis), out.channels = options.channels, out.floor = options.floor;
   const std::size_t lobes = out.basis.lobes.size(), lights = subject.lights.size(), channels = out.channel_count();
   out.kept = options.dominant > 0 ? std::min(options.dominant, lobes) : lobes;
   out.coefficients.assign(subject.texels() * channels * lobes, 0.0f);

@@ -41,6 +41,9 @@ struct Bake {
 // Bakes; the same input gives the same bits for any number of threads. A texel whose weights are all 0 gets 0.
 Bake bake(const Subject& subject, const BakeOptions& options, const GoesOn& goes_on);
 
+// The same with lobes that were chosen before: what `options` says of choosing them is not looked at.
+Bake bake_with(const Subject& subject, Basis basis, const BakeOptions& options, const GoesOn& goes_on);
+
 // What a texel adds under a light (unit direction), for irradiance 1: three channels, luminance in all of them.
 class Residual {
  public:

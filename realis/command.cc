@@ -14,6 +14,7 @@
 #include "realis/apply.h"
 #include "realis/bake_file.h"
 #include "realis/from_capture.h"
+#include "realis/weigh.h"
 #include "render/capture/files_of_capture.h"
 #include "render/files/files.h"
 #include "render/files/interrupt.h"
@@ -30,8 +31,10 @@ using files::UsageError;
 struct Request {
   std::string capture, camera, variant, lobes = "auto", name = "bake", out, result = "realis";
   int dominant = 0;
-  bool is_rgb = false, is_exact = false, is_float = false;
+  bool is_rgb = false, is_exact = false, is_float = false, has_layers = false;
   double floor = 0.4, seed = 1;
+  std::vector<std::string> only, with, without;  // weights
+  weight::Settings weights;
 };
 
 std::size_t camera_of(const capture::Capture& capture, const std::string& id) {
@@ -127,6 +130,8 @@ void write_results(capture::Capture& capture, const Subject& subject, const Bake
 int run_bake(const Request& request) {
   files::catch_interrupts();
   const BakeOptions options = options_of(request);
+  weight::Choice choice = weight::choice_of(request.only, request.with, request.without, request.weights);
+  if (options.is_exact) choice.is_on.fill(false);  // photographs come back, whatever is wrong with them
   capture::Capture capture = capture::read_capture(request.capture);
   const std::size_t camera = camera_of(capture, request.camera);
   if (!capture::is_id(request.name)) throw UsageError("--name " + files::in_quotes(request.name) + " cannot be a name");
@@ -141,7 +146,9 @@ int run_bake(const Request& request) {
   if (request.variant.empty()) fit = thin(capture_fit::fit_capture(capture, camera, {}, goes_on));
   const Renderer renderer =
       fit ? renders_of_fit(capture, *fit) : renders_of_variant(capture, camera, variant_of(capture, request.variant));
-  const Subject subject = read_subject(capture, camera, renderer, {}, goes_on);
+  Subject subject = read_subject(capture, camera, renderer, {}, goes_on);
+  const std::vector<weight::Layer> layers =
+      weigh(capture, fit ? fit->normals : image::Picture(), choice, request.has_layers, subject);
   const auto read = std::chrono::steady_clock::now();
   StoredBake stored{bake(subject, options, goes_on), {}, subject.width, subject.height, subject.pixels};
   const auto baked = std::chrono::steady_clock::now();
@@ -155,6 +162,7 @@ int run_bake(const Request& request) {
       request.out.empty() ? capture.root / "realis" / request.name : std::filesystem::path(request.out);
   write_bake(folder, stored, request.is_float);
   if (fit) write_surface(folder, *fit);
+  if (request.has_layers) write_weights(capture, subject, layers, std::filesystem::path("realis") / request.name);
   if (!request.result.empty()) write_results(capture, subject, seen, request.result);
 
   std::cout << subject.texels() << " texels under " << subject.lights.size() << " lights: " << seen.basis.lobes.size()
@@ -252,7 +260,7 @@ Exit codes: 0 done, 2 usage, 3 a file cannot be used, 4 the program failed.)");
 
 }  // namespace
 
-void add_realis(CLI::App& program, int& exit_code) {
+CLI::App& add_realis(CLI::App& program, int& exit_code) {
   CLI::App* realis = program.add_subcommand("realis", "Bake what renders lack of photographs, and give it back");
   realis->require_subcommand(1);
   CLI::App* bake = realis->add_subcommand("bake", "Bake the difference of photographs and renders of a capture");
@@ -274,14 +282,37 @@ void add_realis(CLI::App& program, int& exit_code) {
   bake->add_option("--out", request->out, "folder of the bake instead");
   bake->add_option("--result", request->result, "variant that render + realis is written to; empty: none")
       ->capture_default_str();
-  bake->footer(R"(Examples
+  std::string weights;
+  for (const weight::Row& row : weight::kWeights) {
+    weights += "\n  " + std::string(row.name) + std::string(10 - row.name.size(), ' ') +
+               (row.is_default ? "on   " : "off  ") + std::string(row.text);
+    for (const weight::SettingRow& setting : row.settings)
+      if (!setting.name.empty())
+        bake->add_option("--" + std::string(setting.name), setting.value(request->weights), std::string(setting.text))
+            ->capture_default_str()
+            ->group("Weights");
+  }
+  bake->add_option("--without", request->without, "weight that is left out; may be repeated")
+      ->allow_extra_args(false)
+      ->group("Weights");
+  bake->add_option("--with", request->with, "weight that is off by default; may be repeated")
+      ->allow_extra_args(false)
+      ->group("Weights");
+  bake->add_option("--only", request->only, "weight, of all the only one; may be repeated")
+      ->allow_extra_args(false)
+      ->group("Weights");
+  bake->add_flag("--layers", request->has_layers, "each weight as a variant weight_NAME, for likeness olat view")
+      ->group("Weights");
+  bake->footer("Weights of samples, and whether they are on" + weights + "\n\n" + R"(Examples
   likeness realis bake capture                      fit the photographs, bake what the fit lacks: CAPTURE/realis/bake
   likeness olat view capture                        photographs beside render + realis
   likeness realis bake head --variant path_traced   what the renders of a scene lack
+  likeness realis bake capture --without foreign --layers   what a weight does, to look at
 
 Exit codes: 0 done, 2 usage, 3 a file cannot be used, 4 the program failed.)");
   bake->callback([request, &exit_code] { exit_code = run_bake(*request); });
   add_apply(*realis, exit_code);
+  return *realis;
 }
 
 }  // namespace likeness::realis
