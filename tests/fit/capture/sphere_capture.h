@@ -127,6 +127,6 @@ inline capture::Capture make_sphere(const std::filesystem::path& root, const Sph
 namespace likeness::capture_fit {
 
 inline const GoesOn kGo = [](double, std::string_view) { return true; };
-inline const Options kEstimate{.normals = NormalSource::kEstimate};
+inline const Options kEstimate{.normals = NormalSource::kEstimate, .pixels = 300};
 
 }  // namespace likeness::capture_fit
