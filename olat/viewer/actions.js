@@ -1,6 +1,6 @@
 // What each action of the table does (olat/pair/actions.h states ids, keys and texts), and which key means which.
 import { tables, fieldNamed } from './tables.js';
-import { textOf } from './state.js';
+import { addressOf, textOf } from './state.js';
 import { kAhead } from './pictures.js';
 
 const kStored = 'likeness-keys';
@@ -112,7 +112,7 @@ export function makeActions(app) {
     bookmark_recall: key => app.recall(key),
     bookmark_store: key => app.store(key.replace('Ctrl+', '')),
     copy_command: () => app.copy(commandOf(app)),
-    save_view: () => app.saveView(),
+    save_view: () => saveView(app.state),
     panels: () => app.togglePanels(),
     help: () => app.help(),
     palette: () => app.palette(),
@@ -134,4 +134,12 @@ export function neighbours(app) {
 export function commandOf(app) {
   const quote = text => "'" + text.replaceAll("'", "'\\''") + "'";
   return `likeness olat picture ${quote(app.capture.root ?? '.')} --state ${quote(textOf(app.state))} --out picture.png`;
+}
+
+export function saveView(state) {
+  const link = document.createElement('a');
+  link.href = URL.createObjectURL(new Blob([JSON.stringify(Object.fromEntries(addressOf(state).split('&').filter(Boolean).map(p => p.split('=').map(decodeURIComponent))), null, 1) + '\n'], { type: 'application/json' }));
+  link.download = 'view.json';
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 1000);
 }

@@ -368,13 +368,6 @@ class Viewer {
       this.say(text);
     }
   }
-  saveView() {
-    const link = document.createElement('a');
-    link.href = URL.createObjectURL(new Blob([JSON.stringify(Object.fromEntries(addressOf(this.state).split('&').filter(Boolean).map(p => p.split('=').map(decodeURIComponent))), null, 1) + '\n'], { type: 'application/json' }));
-    link.download = 'view.json';
-    link.click();
-    setTimeout(() => URL.revokeObjectURL(link.href), 1000);
-  }
   togglePanels() {
     document.body.classList.toggle('bare');
     this.redraw();

@@ -120,6 +120,11 @@ TEST_F(PageTools, KeepAnExposureThatSomebodyChose) {
   open("ev=0&light=l1");
   EXPECT_EQ(number("likeness.state.ev"), 0) << "also where it is 0";
   EXPECT_TRUE(wait("new URLSearchParams(location.search).get('ev') === '0'")) << "and it stays in the address";
+  evaluate(
+      "URL.createObjectURL = blob => { blob.text().then(text => { window.saved = JSON.parse(text); }); return '#'; };"
+      "HTMLAnchorElement.prototype.click = () => {};");
+  press("Shift+s");
+  EXPECT_TRUE(wait("window.saved.ev === '0' && window.saved.light === 'l1'")) << "and in view.json";
   open("light=l1");
   EXPECT_EQ(number("likeness.state.ev"), 2.5) << "of capture.json";
   EXPECT_EQ(evaluate("document.getElementById('hud').textContent.includes('auto')"), "false");
