@@ -29,11 +29,12 @@ Choice choice_of(std::span<const std::string> only, std::span<const std::string>
   for (const std::string& name : with) out.is_on[known("--with", name)] = true;
   for (const std::string& name : without) {
     const std::size_t at = known("--without", name);
-    if (at == kMaskWeight)
-      throw files::UsageError("--without mask: outside the mask there is no texel; remove the layer from the capture");
+    if (kWeights[at].make == nullptr)
+      throw files::UsageError("--without " + name + ": it is always on (" + std::string(kWeights[at].text) + ")");
     out.is_on[at] = false;
   }
-  out.is_on[kMaskWeight] = true;
+  for (std::size_t i = 0; i < kWeights.size(); ++i)
+    if (kWeights[i].make == nullptr) out.is_on[i] = true;
   for (const Row& row : kWeights)
     for (const SettingRow& setting : row.settings) {
       if (setting.name.empty()) continue;

@@ -18,7 +18,9 @@ constexpr double kLeastReceived = 0.3;  // cosine that a residual is divided by 
 constexpr double kDarkest = 0.25;       // of a prediction: what is darker is a shadow
 const double kMirror = std::cos(25 * std::numbers::pi / 180);
 
-enum : std::uint8_t { kUsual = 0, kOff = 1, kHighlight = 2, kSeen = 3 };
+constexpr double kWeak = 0.3;  // of the limits: what is off that much belongs to an object that it touches
+
+enum : std::uint8_t { kUsual = 0, kSlightlyOff = 1, kOff = 2, kHighlight = 3, kSeen = 4 };
 
 // Of each light the nearest others, nearest first.
 std::vector<std::vector<std::size_t>> neighbours_of(const Samples& s) {
@@ -65,13 +67,24 @@ void mark_texel(const Samples& s, const std::vector<std::vector<std::size_t>>& n
   }
   some.assign(difference.begin(), difference.end());
   for (double& x : some) x = std::abs(x);
-  const double limit = std::max({settings.deviations * 1.4826 * quantile(some, 0.5), settings.share * usual, 1e-12});
+  const double deviation = settings.deviations * 1.4826 * quantile(some, 0.5);
+  // How far a sample is off, over what it takes: as a residual, and as light, so that grazing light counts for little.
+  const auto excess = [&](std::size_t l) {
+    const double d = std::abs(difference[l]);
+    const double most = std::max(deviation, settings.share * usual * s.irradiance_of(l) / received[l]);
+    return most > 0 ? d / most : d > 0 ? 2.0 : 0.0;
+  };
   for (std::size_t l = 0; l < lights; ++l) {
-    if (!(std::abs(difference[l]) > limit)) continue;
+    const double off = excess(l);
+    if (!(off > kWeak)) continue;
     const std::size_t at = t * lights + l;
     const double expected = luminance(s.render[at]) + predicted[l] * received[l];
     if (difference[l] < 0 && luminance(s.photo[at]) < kDarkest * expected) continue;
-    marks[l] = difference[l] > 0 && half_cosine(s, t, l) > kMirror ? kHighlight : kOff;
+    // Grazing light shows what renders are worst at: alone it is no sign of an object.
+    const bool is_grazing = received[l] <= kLeastReceived * s.irradiance_of(l);
+    marks[l] = off <= 1 || is_grazing                                ? kSlightlyOff
+               : difference[l] > 0 && half_cosine(s, t, l) > kMirror ? kHighlight
+                                                                     : kOff;
   }
 }
 
@@ -101,18 +114,18 @@ Weights foreign(const Samples& s, const ForeignSettings& settings) {
   tbb::parallel_for(std::size_t{0}, lights, [&](std::size_t l) {
     std::vector<std::size_t> region;
     for (std::size_t first = 0; first < s.texels(); ++first) {
-      if (marks[first * lights + l] == kUsual || marks[first * lights + l] == kSeen) continue;
+      if (marks[first * lights + l] != kOff && marks[first * lights + l] != kHighlight) continue;
       region.assign(1, first);
-      std::size_t highlights = marks[first * lights + l] == kHighlight;
+      std::size_t strong = 1, highlights = marks[first * lights + l] == kHighlight;
       marks[first * lights + l] = kSeen;
       for (std::size_t i = 0; i < region.size(); ++i)
         around(region[i], [&](std::size_t n) {
           std::uint8_t& mark = marks[n * lights + l];
           if (mark == kUsual || mark == kSeen) return;
-          highlights += mark == kHighlight, mark = kSeen;
+          strong += mark != kSlightlyOff, highlights += mark == kHighlight, mark = kSeen;
           region.push_back(n);
         });
-      if (static_cast<double>(region.size()) < settings.least || 2 * highlights > region.size()) continue;
+      if (static_cast<double>(strong) < settings.least || 2 * highlights > strong) continue;
       for (const std::size_t t : region) around(t, [&](std::size_t n) { out[n * lights + l] = 0; });
     }
   });

@@ -50,10 +50,37 @@ void find_crossings(std::span<const float> v, bool is_photo, std::vector<Crossin
   }
 }
 
+// Where what is known of a line ends (the subject's border, or a surface that the light grazes) with a shadow in one picture
+// only, the other one's contour is behind that end: it counts as if it were there.
+void find_hidden(std::span<const float> photo, std::span<const float> render, std::vector<Crossing>& all) {
+  // Beyond the picture it is not known that nothing is known.
+  const auto is_known = [&](std::size_t k) {
+    return k >= photo.size() || !(std::isnan(photo[k]) || std::isnan(render[k]));
+  };
+  const std::size_t found = all.size();
+  for (std::size_t i = 0; i < photo.size(); ++i) {
+    if (!is_known(i) || (photo[i] < 0.5f) == (render[i] < 0.5f)) continue;
+    const auto place = static_cast<double>(i);
+    const auto after = std::find_if(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(found),
+                                    [&](const Crossing& c) { return c.place >= place; });
+    if (!is_known(i - 1) && after != all.begin() + static_cast<std::ptrdiff_t>(found))
+      all.push_back({place, !after->is_photo, after->rises});
+    if (!is_known(i + 1) && after != all.begin()) all.push_back({place, !(after - 1)->is_photo, (after - 1)->rises});
+  }
+}
+
 // The pictures of one light, of the whole picture.
 struct Visible {
   std::vector<float> photo, render;
+  bool has_shadows = false;  // both have
 };
+
+bool has_contours(std::span<const float> picture, std::size_t width, std::size_t height) {
+  std::vector<Crossing> found;
+  for (std::size_t y = 0; y < height && found.size() < 4; ++y)
+    find_crossings(picture.subspan(y * width, width), false, found);
+  return found.size() >= 4;
+}
 
 // One line through the picture: pixels first, first + stride, ... `count` of them.
 void weigh_line(const Visible& v, std::size_t first, std::size_t stride, std::size_t count, double step,
@@ -65,9 +92,14 @@ void weigh_line(const Visible& v, std::size_t first, std::size_t stride, std::si
     photo[i] = v.photo[first + i * stride], render[i] = v.render[first + i * stride];
   find_crossings(photo, true, all);
   find_crossings(render, false, all);
-  std::sort(all.begin(), all.end(), [](const Crossing& a, const Crossing& b) {
-    return a.place != b.place ? a.place < b.place : a.is_photo < b.is_photo;
-  });
+  if (all.empty()) return;
+  const auto sort = [&] {
+    std::sort(all.begin(), all.end(), [](const Crossing& a, const Crossing& b) {
+      return a.place != b.place ? a.place < b.place : a.is_photo < b.is_photo;
+    });
+  };
+  sort();
+  if (v.has_shadows) all.reserve(all.size() + 2 * count), find_hidden(photo, render, all), sort();
   for (std::size_t k = 0; k + 1 < all.size(); ++k) {
     const Crossing &a = all[k], &b = all[k + 1];
     const double gap = (b.place - a.place) * step;
@@ -100,6 +132,7 @@ Weights shadow(const Samples& s, const ShadowSettings& settings) {
       if (lit_render[t] > 0)
         v.render[s.pixels[t]] = static_cast<float>(luminance(s.render[at]) / (received * lit_render[t]));
     }
+    v.has_shadows = has_contours(v.render, width, height) && has_contours(v.photo, width, height);
     std::vector<float> weights(width * height, 1.0f);
     const auto line = [&](std::size_t first, std::size_t stride, std::size_t count, double step) {
       weigh_line(v, first, stride, count, step, settings, weights);

@@ -12,6 +12,7 @@ namespace likeness::realis::weight {
 // along rows, columns and both diagonals: where the nearest contour on one side is the photo's and on the other the render's,
 // with the same sign (both sides grow lighter the same way: the dot product of their gradients is positive), at most `longest`
 // pixels apart, the texel is between the two: 1 - clamp01((gap - 0.1) / (full - 0.1)), the least of the four ways.
+// A contour that is hidden where the known part of a line ends counts as being there, under lights whose render has shadows.
 // Lines are walked once from end to end, so that the cost does not depend on `longest`. Without contours of both kinds
 // (a render from normals casts no shadow) nothing is between, and the weight is 1.
 struct ShadowSettings {

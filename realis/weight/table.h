@@ -57,7 +57,7 @@ inline constexpr std::array kWeights{
     Row{"black", [](const Samples& s, const Settings& c) { return black(s, c.black); }, false,
         {{{"black-level", [](Settings& c) -> double& { return c.black.level; }, 0, 1, "share of a light's brightest texels"}}},
         "where photo and render are both nearly dark"},
-    Row{"foreign", [](const Samples& s, const Settings& c) { return foreign(s, c.foreign); }, true,
+    Row{"foreign", [](const Samples& s, const Settings& c) { return foreign(s, c.foreign); }, false,
         {{{"foreign-deviations", [](Settings& c) -> double& { return c.foreign.deviations; }, 1, 1e3, "of what a texel's lights differ by"},
           {"foreign-share", [](Settings& c) -> double& { return c.foreign.share; }, 0.01, 1e3, "of what a texel shows"},
           {"foreign-least", [](Settings& c) -> double& { return c.foreign.least; }, 1, 1e6, "pixels of an object"}}},
@@ -65,7 +65,7 @@ inline constexpr std::array kWeights{
     Row{"specular", [](const Samples& s, const Settings& c) { return specular(s, c.specular); }, false,
         {{{"specular-significance", [](Settings& c) -> double& { return c.specular.significance; }, 0.1, 1e3, "deviations above the rest"}}},
         "highlights that the render lacks, for bakes that other cameras see"},
-    Row{"mask", nullptr, true, {}, "outside the mask there is no texel; always on"},
+    Row{"mask", nullptr, true, {}, "outside the mask there is no texel"},
     Row{"cosine", nullptr, true, {}, "max(cos, floor)^2: how much light a residual is a share of"},
 };
 // clang-format on
@@ -75,7 +75,6 @@ constexpr std::size_t weight_named(std::string_view name) {
     if (kWeights[i].name == name) return i;
   return kNoWeight;
 }
-inline constexpr std::size_t kMaskWeight = weight_named("mask"), kCosineWeight = weight_named("cosine");
 
 struct Choice {
   std::array<bool, kWeights.size()> is_on{};
@@ -85,7 +84,7 @@ struct Choice {
   }
 };
 
-// A choice from names: `only` (none: those that are on by default), then `with`, then `without`. The mask stays on.
+// A choice from names: `only` (none: those that are on by default), then `with`, then `without`. Mask and cosine stay on.
 // Throws files::UsageError for a name that is none, with the nearest one, and for a setting out of its range.
 Choice choice_of(std::span<const std::string> only, std::span<const std::string> with,
                  std::span<const std::string> without, const Settings& settings = {});
