@@ -32,12 +32,12 @@ struct CaptureFaults {
     double size = 0;
   };
   std::vector<Object> objects;
-  double shadow_offset_m = 0;                     // the shadow is cast by a ball that much to the right (world's x)
-  double residue = 0;     // times a GGX lobe of alpha 0.2 and F = 1 that the renders do not have
-  double read_noise = 0;  // standard deviation of a dark pixel [electron]
-  double full_well = 0;   // electrons at 1, for shot noise; 0: none, and read noise is in thousandths of 1
-  double black = 0;       // is subtracted, and what is below becomes 0: light that is lost
-  double clip = 0;        // what is above becomes it, and frames.json says so; 0: nothing is clipped
+  double shadow_offset_m = 0;  // the shadow is cast by a ball that much to the right (world's x)
+  double residue = 0;          // times a GGX lobe of alpha 0.2 and F = 1 that the renders do not have
+  double read_noise = 0;       // standard deviation of a dark pixel [electron]
+  double full_well = 0;        // electrons at 1, for shot noise; 0: none, and read noise is in thousandths of 1
+  double black = 0;            // is subtracted, and what is below becomes 0: light that is lost
+  double clip = 0;             // what is above becomes it, and frames.json says so; 0: nothing is clipped
   capture::Transfer curve = capture::Transfer::kLinear;  // is in the photographs; frames.json calls them linear
   std::size_t missing = 0, duplicated = 0;               // frames, drawn with the seed
   bool is_mirrored = false;                              // lights.json has x of every light turned round

@@ -173,8 +173,9 @@ void add_make_capture(CLI::App& make, int& exit_code) {
   sub->add_option("--swap", asked->swaps, "A,B: the photographs of two lights go by each other's name; may be repeated")
       ->allow_extra_args(false)
       ->group(group);
-  sub->add_option("--object", asked->objects,
-                  "LIGHT=SIZE: a disc of that share of the picture before the subject, under one light; may be repeated")
+  sub->add_option(
+         "--object", asked->objects,
+         "LIGHT=SIZE: a disc of that share of the picture before the subject, under one light; may be repeated")
       ->allow_extra_args(false)
       ->group(group);
   sub->add_option("--shadow-offset-m", faults.shadow_offset_m,

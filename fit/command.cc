@@ -186,7 +186,8 @@ CLI::App& add_fit(CLI::App& program, int& exit_code) {
                                 app->get_subcommands().front()->get_name());
       return;
     }
-    if (o->paths.empty()) throw files::UsageError("FILE is required: a measured material, or a folder of them");
+    if (o->paths.empty())
+      throw files::UsageError("FILE is required: a measured material, or a folder of them (likeness fit --help)");
     exit_code = run_fit(*o);
   });
   return *app;
