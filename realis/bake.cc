@@ -54,6 +54,8 @@ Sampled sampled_of(const Subject& s, std::uint64_t seed) {
     for (std::size_t k = 0; k < lights; ++k)
       out.residuals.push_back(
           static_cast<float>(error_of(s, first + k, Channels::kLuminance, 0) * mean / s.irradiance_of(k)));
+    for (std::size_t k = 0; k < lights; ++k)
+      out.photos.push_back(static_cast<float>(luminance(s.photo[first + k]) * mean / s.irradiance_of(k)));
     ++taken;
   }
   return out;

@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "brdf/realis/coefficient.h"
 #include "render/files/files.h"
 #include "render/image/layers.h"
 #include "render/image/read.h"
@@ -24,7 +25,6 @@ using Words = std::string_view;
 constexpr std::array<Words, 2> kChannels{"luminance", "rgb"};
 constexpr std::array<Words, 2> kStorages{"8 bit", "float"};
 constexpr const char *kFile = "bake.json", *kFloats = "coefficients.exr", *kType = "realis bake";
-constexpr int kMiddle = 128, kReach = 127;
 
 // clang-format off
 constexpr std::array kLobeKeys{
@@ -91,13 +91,9 @@ std::vector<double> multipliers_of(const Bake& bake) {
     out[i % each] = std::max(out[i % each], static_cast<double>(std::abs(bake.coefficients[i])));
   return out;
 }
-std::uint8_t byte_of(float c, double multiplier) {
-  if (!(multiplier > 0)) return kMiddle;
-  return static_cast<std::uint8_t>(
-      kMiddle + std::clamp<long>(std::lround(kReach * static_cast<double>(c) / multiplier), -kReach, kReach));
-}
+std::uint8_t byte_of(float c, double multiplier) { return brdf::encoded(static_cast<double>(c), multiplier); }
 float coefficient_of(std::uint8_t byte, double multiplier) {
-  return static_cast<float>(multiplier * (static_cast<int>(byte) - kMiddle) / kReach);
+  return static_cast<float>(brdf::decoded(static_cast<double>(byte), multiplier));
 }
 
 // Planes of bytes over the picture, three a file.
@@ -182,8 +178,7 @@ void read_bytes(const std::filesystem::path& folder, const std::vector<double>& 
                                 std::to_string(pixel) + " names lobe " + std::to_string(lobe) + "; bake.json has " +
                                 std::to_string(lobes));
       const std::size_t at = plane / bake.kept * lobes + lobe;
-      bake.coefficients[texel * each + at] =
-          coefficient_of(std::max<std::uint8_t>(planes[plane][pixel], 1), multipliers[at]);
+      bake.coefficients[texel * each + at] = coefficient_of(planes[plane][pixel], multipliers[at]);
     }
 }
 

@@ -17,6 +17,7 @@ using Matrix = Eigen::MatrixXd;
 
 constexpr std::size_t kScales = 4, kFewest = 6;  // lobes below which there is one scale
 constexpr double kExactSpread = 1e6;
+constexpr double kNoiseShare = 2e-3;  // of the brightest photo: what stops are counted above
 
 // How many lobes each scale has, narrow ones first.
 std::vector<std::size_t> counts_of(std::size_t count, std::size_t lights) {
@@ -68,7 +69,14 @@ class Search {
         residuals_(Eigen::Map<const Eigen::MatrixXf>(sampled.residuals.data(),
                                                      static_cast<Eigen::Index>(sampled.to_lights.size()),
                                                      static_cast<Eigen::Index>(sampled.texels()))
-                       .cast<double>()) {}
+                       .cast<double>()) {
+    if (sampled.photos.size() != sampled.residuals.size()) return;
+    photos_ = Eigen::Map<const Eigen::MatrixXf>(sampled.photos.data(), residuals_.rows(), residuals_.cols())
+                  .cast<double>()
+                  .cwiseMax(0);
+    noise_ = kNoiseShare * photos_.maxCoeff();
+    if (!(noise_ > 0)) photos_.resize(0, 0);
+  }
 
   // Logarithms: of the factor of all sharpnesses, then of the spread of each scale over a residual's typical noise.
   std::size_t size() const { return 1 + scales_.size(); }
@@ -85,10 +93,11 @@ class Search {
 
   struct Score {
     double held_out = std::numeric_limits<double>::infinity();  // root mean square
+    double stops = 1;    // root mean square, if there are photos: a shadow is little light, and many stops
     double freedom = 1;  // degrees of freedom of the fit over the number of lights
     // Lobes that are narrower than the distance of two lights can repeat each light's noise without any harm to the
-    // others: of what held-out lights cannot tell apart the least free is taken.
-    double value() const { return held_out * (1 + 2e-3 * freedom); }
+    // others, and stops are few texels' affair: what is wholly free must foretell by 2 % better than what is not at all.
+    double value() const { return held_out * stops * (1 + 2e-2 * freedom); }
   };
   Score score(std::span<const double> x) const {
     const Basis b = basis(x);
@@ -103,7 +112,14 @@ class Search {
     const Matrix left = inverse.diagonal().cwiseInverse().asDiagonal() * (inverse * residuals_);
     const double mean = left.squaredNorm() / static_cast<double>(std::max<Eigen::Index>(left.size(), 1));
     if (!std::isfinite(mean)) return {};
-    return {std::sqrt(mean), 1 - inverse.trace() / static_cast<double>(std::max<Eigen::Index>(lights, 1))};
+    return {std::sqrt(mean), stops(left), 1 - inverse.trace() / static_cast<double>(std::max<Eigen::Index>(lights, 1))};
+  }
+
+  double stops(const Matrix& left) const {
+    if (photos_.size() == 0) return 1;
+    const auto predicted = (photos_ - left).array().max(0) + noise_;
+    const double mean = (predicted / (photos_.array() + noise_)).log().square().mean();
+    return std::sqrt(mean) / std::numbers::ln2 + 1e-6;
   }
 
   double plain() const {
@@ -114,6 +130,8 @@ class Search {
   const Sampled& sampled_;
   std::vector<Scale> scales_;
   Matrix residuals_;  // lights x texels
+  Matrix photos_;     // likewise, or empty
+  double noise_ = 0;
 };
 
 // Tries a step up and a step down along each coordinate, and halves the steps when none helps.

@@ -17,6 +17,8 @@ namespace likeness::realis {
 struct Sampled {
   std::vector<glm::dvec3> to_lights;  // unit
   std::vector<float> residuals;
+  // What was photographed, like residuals: then errors count in stops, too. Empty: only as light.
+  std::vector<float> photos{};
   std::size_t texels() const { return to_lights.empty() ? 0 : residuals.size() / to_lights.size(); }
 };
 
@@ -28,9 +30,9 @@ struct Choice {
 
 // `count` lobes on up to four scales: axes by spread_out(), at most as many as lights on each, a fourth of them on
 // each wider one; sharpness such that a lobe has fallen to a half at its neighbour, times a factor; on each scale one
-// spread. Factor and spreads minimise held_out (of what it cannot tell apart they take the least free), by a compass
-// search in their logarithms. Finite for whatever is given: of
-// zero lights, texels or lobes the basis is empty.
+// spread. Factor and spreads minimise held_out, times the root mean square of held-out stops if there are photos, by a
+// compass search in their logarithms; of what these cannot tell apart they take the less free. Finite for whatever is
+// given: of zero lights, texels or lobes the basis is empty.
 Choice choose_basis(const Sampled& sampled, std::size_t count);
 
 // As many lobes as different lights, at their directions, and free: the photographs come back as they were.
