@@ -61,24 +61,6 @@ Sampled sampled_of(const Subject& s, std::uint64_t seed) {
   return out;
 }
 
-// The lobes with the largest parts in what a texel adds: |c| in all channels.
-void keep_largest(std::span<const double> coefficients, std::size_t lobes, std::size_t kept,
-                  std::vector<std::size_t>& chosen) {
-  const auto size = [&](std::size_t k) {
-    double sum = 0;
-    for (std::size_t c = k; c < coefficients.size(); c += lobes) sum += std::abs(coefficients[c]);
-    return sum;
-  };
-  chosen.resize(lobes);
-  std::iota(chosen.begin(), chosen.end(), std::size_t{0});
-  std::partial_sort(chosen.begin(), chosen.begin() + static_cast<std::ptrdiff_t>(kept), chosen.end(),
-                    [&](std::size_t a, std::size_t b) {
-                      const double x = size(a), y = size(b);
-                      return x != y ? x > y : a < b;
-                    });
-  chosen.resize(kept);
-}
-
 }  // namespace
 
 Bake bake(const Subject& subject, const BakeOptions& options, const GoesOn& goes_on) {
@@ -110,14 +92,10 @@ Bake bake_with(const Subject& subject, Basis basis, const BakeOptions& options, 
   struct Work {
     Solver solver;
     std::vector<double> weights, residuals, coefficients;
-    std::vector<std::size_t> chosen;
   };
   tbb::enumerable_thread_specific<Work> works([&] {
-    Work w{Solver(out.basis),
-           std::vector<double>(lights),
-           std::vector<double>(channels * lights),
-           std::vector<double>(channels * lobes),
-           {}};
+    Work w{Solver(out.basis), std::vector<double>(lights), std::vector<double>(channels * lights),
+           std::vector<double>(channels * lobes)};
     w.solver.aim(subject.to_lights);
     return w;
   });
@@ -136,11 +114,7 @@ Bake bake_with(const Subject& subject, Basis basis, const BakeOptions& options, 
         for (std::size_t c = 0; c < channels; ++c)
           w.residuals[c * lights + i] = error_of(subject, first + i, options.channels, c) / received;
       }
-      w.solver.solve(w.weights, w.residuals, w.coefficients);
-      if (out.kept < lobes) {
-        keep_largest(w.coefficients, lobes, out.kept, w.chosen);
-        w.solver.solve_with(w.chosen, w.weights, w.residuals, w.coefficients);
-      }
+      w.solver.solve_kept(out.kept, w.weights, w.residuals, w.coefficients);
       float* to = out.coefficients.data() + texel * channels * lobes;
       for (std::size_t k = 0; k < channels * lobes; ++k) to[k] = static_cast<float>(w.coefficients[k]);
     });

@@ -22,7 +22,7 @@ struct Solver::Work {
   Matrix values;      // lights x lobes, times spread: coefficients are then in units of it
   Matrix covariance;  // lights x lights: values values^T
   std::vector<Eigen::Index> seen;
-  std::vector<std::size_t> chosen;
+  std::vector<std::size_t> chosen, largest;
   Matrix system, rows, right, found;
   Eigen::LLT<Matrix> factor;
 
@@ -106,6 +106,28 @@ void Solver::solve_with(std::span<const std::size_t> chosen, std::span<const dou
     const std::size_t lobe = chosen[static_cast<std::size_t>(k)];
     out.row(static_cast<Eigen::Index>(lobe)) = w.basis.spread[lobe] * w.found.row(k);
   }
+}
+
+void Solver::solve_kept(std::size_t kept, std::span<const double> weights, std::span<const double> residuals,
+                        std::span<double> coefficients) {
+  solve(weights, residuals, coefficients);
+  const std::size_t lobes = work_->basis.lobes.size();
+  if (kept >= lobes) return;
+  std::vector<std::size_t>& chosen = work_->largest;
+  const auto size = [&](std::size_t k) {
+    double sum = 0;
+    for (std::size_t c = k; c < coefficients.size(); c += lobes) sum += std::abs(coefficients[c]);
+    return sum;
+  };
+  chosen.resize(lobes);
+  std::iota(chosen.begin(), chosen.end(), std::size_t{0});
+  std::partial_sort(chosen.begin(), chosen.begin() + static_cast<std::ptrdiff_t>(kept), chosen.end(),
+                    [&](std::size_t a, std::size_t b) {
+                      const double x = size(a), y = size(b);
+                      return x != y ? x > y : a < b;
+                    });
+  chosen.resize(kept);
+  solve_with(chosen, weights, residuals, coefficients);
 }
 
 // Source  Rasmussen and Williams 2006, Gaussian Processes for Machine Learning, eq. 5.12: y_i - mu_i = [K^-1 y]_i /

@@ -35,6 +35,10 @@ class Solver {
   void solve_with(std::span<const std::size_t> lobes, std::span<const double> weights,
                   std::span<const double> residuals, std::span<double> coefficients);
 
+  // solve(), and, of more than `kept` lobes, the same once more with those that have the largest parts: |c| in all channels.
+  void solve_kept(std::size_t kept, std::span<const double> weights, std::span<const double> residuals,
+                  std::span<double> coefficients);
+
   // What is left of each residual when the coefficients are those of all other lights: e_i - sum_k c_k^(-i) G_k(l_i), in
   // closed form (Allen's PRESS for ridge regression). Of a light of weight 0: not held out, since it was never in.
   void held_out(std::span<const double> weights, std::span<const double> residuals, std::span<double> left);

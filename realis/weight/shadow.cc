@@ -9,7 +9,6 @@
 namespace likeness::realis::weight {
 namespace {
 
-constexpr double kLeastCosine = 0.08;              // below it a shading's own end is steeper than a contour
 constexpr double kDarkest = 0.3, kLightest = 0.7;  // of v on the two sides of a contour
 constexpr double kDeadGap = 0.1;                   // [pixel] what two pictures of the same shadow differ by
 const float kUnknown = std::numeric_limits<float>::quiet_NaN();
@@ -22,9 +21,9 @@ std::vector<double> lit_of(const Samples& s, std::span<const Color> picture) {
     for (std::size_t l = 0; l < s.lights(); ++l) {
       const std::size_t at = t * s.lights() + l;
       const double cosine = static_cast<double>(s.cosine[at]), v = luminance(picture[at]);
-      if (cosine > kLeastCosine && std::isfinite(v)) values.push_back(v / (cosine * s.irradiance_of(l)));
+      if (cosine > kLeastShadowCosine && std::isfinite(v)) values.push_back(v / (cosine * s.irradiance_of(l)));
     }
-    out[t] = quantile(values, 0.75);
+    out[t] = quantile(values, kLitShare);
   });
   return out;
 }
@@ -71,7 +70,7 @@ void find_hidden(std::span<const float> photo, std::span<const float> render, st
 
 // The pictures of one light, of the whole picture.
 struct Visible {
-  std::vector<float> photo, render;
+  std::span<const float> photo, render;
   bool has_shadows = false;  // both have
 };
 
@@ -116,37 +115,43 @@ void weigh_line(const Visible& v, std::size_t first, std::size_t stride, std::si
 
 }  // namespace
 
+std::vector<float> shadow_of_light(int width_, int height_, std::span<const float> photo, std::span<const float> render,
+                                   const ShadowSettings& settings) {
+  const auto width = static_cast<std::size_t>(width_), height = static_cast<std::size_t>(height_);
+  const Visible v{photo, render, has_contours(render, width, height) && has_contours(photo, width, height)};
+  std::vector<float> weights(width * height, 1.0f);
+  const auto line = [&](std::size_t first, std::size_t stride, std::size_t count, double step) {
+    weigh_line(v, first, stride, count, step, settings, weights);
+  };
+  for (std::size_t y = 0; y < height; ++y) line(y * width, 1, width, 1);
+  for (std::size_t x = 0; x < width; ++x) line(x, width, height, 1);
+  for (std::size_t x = 0; x < width; ++x) {
+    line(x, width + 1, std::min(width - x, height), std::numbers::sqrt2);
+    line(x, width - 1, std::min(x + 1, height), std::numbers::sqrt2);
+  }
+  for (std::size_t y = 1; y < height; ++y) {
+    line(y * width, width + 1, std::min(width, height - y), std::numbers::sqrt2);
+    line(y * width + width - 1, width - 1, std::min(width, height - y), std::numbers::sqrt2);
+  }
+  return weights;
+}
+
 Weights shadow(const Samples& s, const ShadowSettings& settings) {
   Weights out(s.samples(), 1.0f);
   if (s.cosine.empty() || s.samples() == 0) return out;
   const std::vector<double> lit_photo = lit_of(s, s.photo), lit_render = lit_of(s, s.render);
-  const auto width = static_cast<std::size_t>(s.width), height = static_cast<std::size_t>(s.height);
+  const std::size_t pixels = static_cast<std::size_t>(s.width) * static_cast<std::size_t>(s.height);
   tbb::parallel_for(std::size_t{0}, s.lights(), [&](std::size_t l) {
-    Visible v{std::vector<float>(width * height, kUnknown), std::vector<float>(width * height, kUnknown)};
+    std::vector<float> photo(pixels, kUnknown), render(pixels, kUnknown);
     for (std::size_t t = 0; t < s.texels(); ++t) {
       const std::size_t at = t * s.lights() + l;
       const double received = static_cast<double>(s.cosine[at]) * s.irradiance_of(l);
-      if (!(static_cast<double>(s.cosine[at]) > kLeastCosine)) continue;
-      if (lit_photo[t] > 0)
-        v.photo[s.pixels[t]] = static_cast<float>(luminance(s.photo[at]) / (received * lit_photo[t]));
+      if (!(static_cast<double>(s.cosine[at]) > kLeastShadowCosine)) continue;
+      if (lit_photo[t] > 0) photo[s.pixels[t]] = static_cast<float>(luminance(s.photo[at]) / (received * lit_photo[t]));
       if (lit_render[t] > 0)
-        v.render[s.pixels[t]] = static_cast<float>(luminance(s.render[at]) / (received * lit_render[t]));
+        render[s.pixels[t]] = static_cast<float>(luminance(s.render[at]) / (received * lit_render[t]));
     }
-    v.has_shadows = has_contours(v.render, width, height) && has_contours(v.photo, width, height);
-    std::vector<float> weights(width * height, 1.0f);
-    const auto line = [&](std::size_t first, std::size_t stride, std::size_t count, double step) {
-      weigh_line(v, first, stride, count, step, settings, weights);
-    };
-    for (std::size_t y = 0; y < height; ++y) line(y * width, 1, width, 1);
-    for (std::size_t x = 0; x < width; ++x) line(x, width, height, 1);
-    for (std::size_t x = 0; x < width; ++x) {
-      line(x, width + 1, std::min(width - x, height), std::numbers::sqrt2);
-      line(x, width - 1, std::min(x + 1, height), std::numbers::sqrt2);
-    }
-    for (std::size_t y = 1; y < height; ++y) {
-      line(y * width, width + 1, std::min(width, height - y), std::numbers::sqrt2);
-      line(y * width + width - 1, width - 1, std::min(width, height - y), std::numbers::sqrt2);
-    }
+    const std::vector<float> weights = shadow_of_light(s.width, s.height, photo, render, settings);
     for (std::size_t t = 0; t < s.texels(); ++t) out[t * s.lights() + l] = weights[s.pixels[t]];
   });
   return out;

@@ -21,4 +21,11 @@ struct ShadowSettings {
 };
 Weights shadow(const Samples& s, const ShadowSettings& settings);
 
+// The same of one light, for who does not hold them all: v of both pictures, row by row, NaN where it is not known (outside
+// the subject, and where the light's cosine is at most kLeastShadowCosine). Of each pixel.
+std::vector<float> shadow_of_light(int width, int height, std::span<const float> photo, std::span<const float> render,
+                                   const ShadowSettings& settings);
+inline constexpr double kLeastShadowCosine = 0.08;  // below it a shading's own end is steeper than a contour
+inline constexpr double kLitShare = 0.75;  // of a texel's lights: the one that says what it shows where it is lit
+
 }  // namespace likeness::realis::weight

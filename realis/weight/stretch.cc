@@ -42,11 +42,9 @@ Weights stretch(const Samples& s, const StretchSettings& settings) {
   if (!(median > 0)) return out;
   tbb::parallel_for(std::size_t{0}, s.texels(), [&](std::size_t t) {
     if (!std::isfinite(norms[t])) return;
-    const double strength = settings.b * std::pow(norms[t] / median, settings.a);
-    for (std::size_t l = 0; l < s.lights(); ++l) {
-      const double aslant = 1 - std::abs(glm::dot(s.to_views[t], s.to_lights[l]));
-      out[t * s.lights() + l] = static_cast<float>(1 - std::clamp(strength * aslant, 0.0, 1.0));
-    }
+    const double strength = stretch_strength(norms[t] / median, settings);
+    for (std::size_t l = 0; l < s.lights(); ++l)
+      out[t * s.lights() + l] = static_cast<float>(stretch_weight(strength, glm::dot(s.to_views[t], s.to_lights[l])));
   });
   return out;
 }

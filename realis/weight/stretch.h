@@ -1,5 +1,8 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+
 #include "realis/weight/samples.h"
 
 namespace likeness::realis::weight {
@@ -13,5 +16,13 @@ struct StretchSettings {
   double b = 0.05;  // fade speed, >= 0
 };
 Weights stretch(const Samples& s, const StretchSettings& settings);
+
+// The two halves of that formula, for who has g from elsewhere: b g^a, and the weight of a light with v_camera . v_lobe.
+inline double stretch_strength(double gradient, const StretchSettings& settings) {
+  return settings.b * std::pow(gradient, settings.a);
+}
+inline double stretch_weight(double strength, double cosine) {
+  return 1 - std::clamp(strength * (1 - std::abs(cosine)), 0.0, 1.0);
+}
 
 }  // namespace likeness::realis::weight
