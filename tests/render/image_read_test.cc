@@ -345,5 +345,28 @@ TEST(ReadPicture, DecodesBytesAndRepeatsGrey) {
   EXPECT_THAT(read_picture(folder / "rgb.pfm").rgb, ElementsAre(1, 2, 3));
 }
 
+// Smooth channels that have nothing to do with each other, as coefficients have not. Quality 95 of a smooth picture: a step
+// of quantisation is at most 10 / 255 of a block's wave, and the largest of them over 8 x 8 pixels is less than 4 / 255; what
+// goes through luma and differences is rounded twice more.
+TEST(WriteJpeg, IsReadAgainNearlyAsItWas) {
+  DisplayPicture picture(37, 21);
+  for (int y = 0; y < 21; ++y)
+    for (int x = 0; x < 37; ++x) {
+      picture.at(x, y)[0] = static_cast<std::uint8_t>(128 + 100 * std::sin(0.3 * x));
+      picture.at(x, y)[1] = static_cast<std::uint8_t>(128 + 100 * std::cos(0.4 * y));
+      picture.at(x, y)[2] = static_cast<std::uint8_t>(6 * x);
+    }
+  for (const JpegColors colors : {JpegColors::kYcc, JpegColors::kRgb}) {
+    const Texels read = decode_texels(jpeg_bytes(picture, 95, colors), "picture");
+    ASSERT_EQ(read.channels, 3);
+    ASSERT_EQ(read.bytes.size(), picture.rgb.size());
+    for (std::size_t i = 0; i < picture.rgb.size(); ++i)
+      ASSERT_NEAR(read.bytes[i], picture.rgb[i], colors == JpegColors::kRgb ? 5 : 7) << i;
+  }
+  EXPECT_LT(jpeg_bytes(picture, 30, JpegColors::kYcc).size(), jpeg_bytes(picture, 95, JpegColors::kYcc).size());
+  EXPECT_THROW(jpeg_bytes(DisplayPicture(0, 0), 95, JpegColors::kYcc), std::runtime_error);
+  EXPECT_THROW(jpeg_bytes(DisplayPicture(65501, 1), 95, JpegColors::kYcc), std::runtime_error);
+}
+
 }  // namespace
 }  // namespace likeness::image
