@@ -122,7 +122,7 @@ Bake bake_with(const Subject& subject, Basis basis, const BakeOptions& options, 
   return out;
 }
 
-Residual::Residual(const Bake& bake, const glm::dvec3& to_light)
+Residual::Residual(const baked::Bake& bake, const glm::dvec3& to_light)
     : bake_(bake), values_(values(bake.basis.lobes, std::span(&to_light, 1))) {}
 
 std::array<double, 3> Residual::at(std::size_t texel, double cosine) const {

@@ -12,7 +12,7 @@
 // texel, with photo = render + e(l) max(cos_i, floor) for a light of irradiance 1 (spec: Realis).
 namespace likeness::realis {
 
-enum class Channels : unsigned char { kLuminance, kRgb };
+using baked::Channels;
 
 struct BakeOptions {
   Channels channels = Channels::kLuminance;
@@ -24,18 +24,13 @@ struct BakeOptions {
   // texels that the light grazes: they are lit by others, and normals are not exact.
   double floor = 0.4;
   std::uint64_t seed = 1;  // of the texels that lobes are chosen by
+  bool by_stops = true;    // lobes are chosen by stops of held-out lights too, or else by their light alone
 };
 
-struct Bake {
-  Basis basis;
-  Channels channels = Channels::kLuminance;
-  double floor = 0.4;
-  std::size_t kept = 0;             // lobes of each texel that are not 0
-  std::vector<float> coefficients;  // [1/sr] for irradiance 1: texel by texel, channel by channel, the lobes
-  std::vector<Choice> ladder;       // what was to choose from; empty if `lobes` was given
-  std::size_t chosen = 0;           // in it
-
-  std::size_t channel_count() const { return channels == Channels::kRgb ? 3 : 1; }
+// A bake, and how its lobes were chosen.
+struct Bake : baked::Bake {
+  std::vector<Choice> ladder;  // what was to choose from; empty if `lobes` was given
+  std::size_t chosen = 0;      // in it
 };
 
 // Bakes; the same input gives the same bits for any number of threads. A texel whose weights are all 0 gets 0.
@@ -47,11 +42,11 @@ Bake bake_with(const Subject& subject, Basis basis, const BakeOptions& options, 
 // What a texel adds under a light (unit direction), for irradiance 1: three channels, luminance in all of them.
 class Residual {
  public:
-  Residual(const Bake& bake, const glm::dvec3& to_light);
+  Residual(const baked::Bake& bake, const glm::dvec3& to_light);
   std::array<double, 3> at(std::size_t texel, double cosine) const;
 
  private:
-  const Bake& bake_;
+  const baked::Bake& bake_;
   std::vector<double> values_;
 };
 

@@ -85,7 +85,7 @@ std::string fixed(double value, int digits) {
 double square(double x) { return x * x; }
 
 // Root mean square of photo - (render + residual) over samples that can be trusted, and of photo - render.
-std::pair<double, double> errors_of(const Subject& s, const Bake& bake) {
+std::pair<double, double> errors_of(const Subject& s, const baked::Bake& bake) {
   double plain = 0, baked = 0;
   std::size_t count = 0;
   std::vector<Residual> residuals;
@@ -106,7 +106,7 @@ std::pair<double, double> errors_of(const Subject& s, const Bake& bake) {
 }
 
 // Render + residual of every light, as a variant of the capture that the comparison tool shows.
-void write_results(capture::Capture& capture, const Subject& subject, const Bake& bake, const std::string& id) {
+void write_results(capture::Capture& capture, const Subject& subject, const baked::Bake& bake, const std::string& id) {
   if (capture::variant_of(capture, id) == capture::kAbsent) {
     capture.variants.push_back({id, "renders/{variant}/{camera}/{light}.exr"});
     capture::write_capture(capture);
@@ -150,14 +150,15 @@ int run_bake(const Request& request) {
   const std::vector<weight::Layer> layers =
       weigh(capture, fit ? fit->normals : image::Picture(), choice, request.has_layers, subject);
   const auto read = std::chrono::steady_clock::now();
-  StoredBake stored{bake(subject, options, goes_on), {}, subject.width, subject.height, subject.pixels};
+  const Bake made = bake(subject, options, goes_on);
+  StoredBake stored{made, {}, subject.width, subject.height, subject.pixels};
   const auto baked = std::chrono::steady_clock::now();
   const auto seconds = [](auto a, auto b) { return std::chrono::duration<double>(b - a).count(); };
-  const Bake seen = request.is_float ? stored.bake : quantised(stored.bake);
+  const baked::Bake seen = request.is_float ? stored.bake : quantised(stored.bake);
   const auto [plain, left] = errors_of(subject, seen);
   stored.about = {capture.name, capture.cameras[camera].id, {}, {{"render_rms", plain}, {"realis_rms", left}}};
-  if (!stored.bake.ladder.empty())
-    stored.about.metrics.emplace_back("held_out_rms", stored.bake.ladder[stored.bake.chosen].held_out);
+  if (!made.ladder.empty())
+    stored.about.metrics.emplace_back("held_out_rms", made.ladder[made.chosen].held_out);
   const std::filesystem::path folder =
       request.out.empty() ? capture.root / "realis" / request.name : std::filesystem::path(request.out);
   write_bake(folder, stored, request.is_float);
@@ -169,13 +170,13 @@ int run_bake(const Request& request) {
             << " lobes, " << (request.is_float ? 4 : 1) * bytes_of_texel(seen) << " bytes a texel\n"
             << "photo - render            " << fixed(plain, 5) << " rms\n"
             << "photo - (render + realis) " << fixed(left, 5) << " rms\n";
-  if (!stored.bake.ladder.empty()) {
+  if (!made.ladder.empty()) {
     std::cout << "lobes  held out (luminance rms)\n";
-    for (std::size_t i = 0; i < stored.bake.ladder.size(); ++i)
-      std::cout << (stored.bake.ladder[i].basis.lobes.size() < 100 ? "  " : " ")
-                << (stored.bake.ladder[i].basis.lobes.size() < 10 ? " " : "")
-                << stored.bake.ladder[i].basis.lobes.size() << "  " << fixed(stored.bake.ladder[i].held_out, 6)
-                << (i == stored.bake.chosen ? "  taken\n" : "\n");
+    for (std::size_t i = 0; i < made.ladder.size(); ++i)
+      std::cout << (made.ladder[i].basis.lobes.size() < 100 ? "  " : " ")
+                << (made.ladder[i].basis.lobes.size() < 10 ? " " : "")
+                << made.ladder[i].basis.lobes.size() << "  " << fixed(made.ladder[i].held_out, 6)
+                << (i == made.chosen ? "  taken\n" : "\n");
   }
   std::cout << "read in " << fixed(seconds(begin, read), 1) << " s, baked in " << fixed(seconds(read, baked), 1)
             << " s: " << (folder / "bake.json").string() << "\n";

@@ -1,122 +1,35 @@
 #include "realis/surface_maps.h"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-
-#include <nlohmann/json.hpp>
-
-#include "render/files/files.h"
-#include "render/image/read.h"
-#include "render/image/tone_curve.h"
-#include "render/image/write.h"
-#include "render/json/fields.h"
-#include "render/material/material_file.h"
+#include "render/baked/surface_maps.h"
 
 namespace likeness::realis {
 namespace {
 
-using json::Form;
-using json::Key;
-
-constexpr const char *kNormals = "normal.png", *kColors = "base_color.png", *kNumbers = "surface.json",
-                     *kMaterial = "surface.material.json";
-constexpr std::size_t kMostBytes = 1 << 16;
-constexpr std::array kKeys{
-    Key{.name = "scale",
-        .form = Form::kNumber,
-        .range = {0, 1e9},
-        .required = true,
-        .text = "base color that 255 stands for"},
-    Key{.name = "exposure",
-        .form = Form::kNumber,
-        .range = {0, 1e9},
-        .above = true,
-        .required = true,
-        .text = "photo over what the material returns of a unit light"},
-};
-constexpr json::Section kSection{"surface", "What a bake's renders were made of.", kKeys};
-
-struct Thin {
-  image::DisplayPicture normals, colors;
-  double scale = 0;
-};
-
-Thin thin_of(const capture_fit::Fit& fit) {
-  Thin out{{fit.normals.width, fit.normals.height}, {fit.base_colors.width, fit.base_colors.height}, 0};
-  for (const float c : fit.base_colors.rgb) out.scale = std::max(out.scale, static_cast<double>(c));
-  for (std::size_t i = 0; i < fit.normals.rgb.size(); ++i) {
-    const double n = std::clamp(static_cast<double>(fit.normals.rgb[i]), -1.0, 1.0);
-    out.normals.rgb[i] = static_cast<std::uint8_t>(128 + std::lround(127 * n));
-    const double c = out.scale > 0 ? static_cast<double>(fit.base_colors.rgb[i]) / out.scale : 0;
-    out.colors.rgb[i] = image::srgb_encode8(static_cast<float>(std::max(c, 0.0)));
-  }
-  return out;
+baked::Surface surface_of(const capture_fit::Fit& fit) {
+  return {fit.normals, fit.base_colors, fit.material, fit.exposure};
 }
 
-// The two pictures back, into `fit`.
-void unpack(const Thin& thin, capture_fit::Fit& fit) {
-  fit.normals = image::Picture(thin.normals.width, thin.normals.height);
-  fit.base_colors = image::Picture(thin.colors.width, thin.colors.height);
-  for (std::size_t pixel = 0; pixel < fit.normals.rgb.size() / 3; ++pixel) {
-    std::array<double, 3> n{};
-    double length = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      n[k] = (static_cast<int>(thin.normals.rgb[3 * pixel + k]) - 128) / 127.0;
-      length += n[k] * n[k];
-    }
-    length = std::sqrt(length);
-    for (std::size_t k = 0; k < 3; ++k) {
-      fit.normals.rgb[3 * pixel + k] = length > 0 ? static_cast<float>(n[k] / length) : 0.0f;
-      fit.base_colors.rgb[3 * pixel + k] =
-          static_cast<float>(thin.scale * image::srgb_decode8(thin.colors.rgb[3 * pixel + k]));
-    }
-  }
-}
-
-image::DisplayPicture read_bytes(const std::filesystem::path& file) {
-  image::Texels texels = image::read_texels(file);
-  if (texels.channels != 3 || texels.bytes.empty())
-    throw files::InputError(file.string() + ": has " + std::to_string(texels.channels) +
-                            " channels, or not 8 bits; expected RGB of 8 bits, as `likeness realis bake` writes it");
-  image::DisplayPicture out(texels.width, texels.height);
-  out.rgb = std::move(texels.bytes);
-  return out;
+void put(baked::Surface surface, capture_fit::Fit& fit) {
+  fit.normals = std::move(surface.normals), fit.base_colors = std::move(surface.base_colors);
+  fit.material = surface.material, fit.exposure = surface.exposure;
 }
 
 }  // namespace
 
 capture_fit::Fit thin(const capture_fit::Fit& fit) {
   capture_fit::Fit out = fit;
-  unpack(thin_of(fit), out);
+  put(baked::thin(surface_of(fit)), out);
   return out;
 }
 
 void write_surface(const std::filesystem::path& folder, const capture_fit::Fit& fit) {
-  const Thin pictures = thin_of(fit);
-  image::write_png(folder / kNormals, pictures.normals);
-  image::write_png(folder / kColors, pictures.colors);
-  material::write_material(folder / kMaterial, {"what a Realis bake was baked over", fit.material});
-  const nlohmann::ordered_json numbers{{"scale", pictures.scale}, {"exposure", fit.exposure}};
-  files::write_whole(folder / kNumbers, numbers.dump(1) + "\n");
+  baked::write_surface(folder, surface_of(fit));
 }
 
 capture_fit::Fit read_surface(const std::filesystem::path& folder, std::size_t camera) {
-  const std::string source = (folder / kNumbers).string();
-  const json::Value value = json::parse(files::read_whole(folder / kNumbers, kMostBytes), source);
-  const json::Fields fields(source, value, kSection, "");
   capture_fit::Fit fit;
   fit.camera = camera;
-  fit.exposure = fields.number("exposure");
-  const material::Material read = material::read_material(folder / kMaterial);
-  const auto* callisto = std::get_if<brdf::Callisto<double>>(&read.brdf);
-  if (callisto == nullptr)
-    throw files::InputError((folder / kMaterial).string() + ": is not of the model callisto, as a bake's surface is");
-  fit.material = *callisto;
-  const Thin pictures{read_bytes(folder / kNormals), read_bytes(folder / kColors), fields.number("scale")};
-  if (pictures.normals.width != pictures.colors.width || pictures.normals.height != pictures.colors.height)
-    throw files::InputError((folder / kColors).string() + ": is of another size than normal.png beside it");
-  unpack(pictures, fit);
+  put(baked::read_surface(folder), fit);
   return fit;
 }
 

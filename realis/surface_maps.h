@@ -5,13 +5,7 @@
 #include "fit/capture/capture_fit.h"
 #include "realis/subject.h"
 
-// Thin copies of what a bake's renders were made of, beside it: whoever has them renders the subject under any light, and
-// sees by them where a surface was changed since (spec: Realis, Bake, 5).
-//
-//     normal.png       8 bit: (b - 128) / 127, then made unit; (128, 128, 128): none
-//     base_color.png   8 bit, sRGB curve, of base_color / scale
-//     surface.json     scale, exposure
-//     surface.material.json
+// A fit as the property maps of a bake hold it (render/baked/surface_maps.h).
 namespace likeness::realis {
 
 // The fit as 8 bits hold it. What is rendered from it is rendered again, to the bit, from what write_surface() wrote:

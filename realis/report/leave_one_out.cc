@@ -336,7 +336,7 @@ class Worker {
     row.bake_seconds = choosing_[plan.lobes] + spent / static_cast<double>(lights()) * of_all();
   }
 
-  static std::vector<Color> predicted(const Subject& s, const Bake& baked, std::size_t light) {
+  static std::vector<Color> predicted(const Subject& s, const baked::Bake& baked, std::size_t light) {
     const Residual residual(baked, s.to_lights[light]);
     std::vector<Color> out(s.texels());
     for (std::size_t t = 0; t < s.texels(); ++t) {

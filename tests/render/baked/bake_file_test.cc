@@ -1,4 +1,4 @@
-#include "realis/bake_file.h"
+#include "render/baked/bake_file.h"
 
 #include <cmath>
 #include <fstream>
@@ -8,12 +8,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "realis/surface_maps.h"
 #include "render/files/files.h"
 #include "tests/realis/domes.h"
 #include "tests/render/temporary_folder.h"
 
-namespace likeness::realis {
+namespace likeness::baked {
 namespace {
 
 StoredBake some_bake(std::size_t lobes, std::size_t kept, Channels channels) {
@@ -22,7 +21,7 @@ StoredBake some_bake(std::size_t lobes, std::size_t kept, Channels channels) {
   s.pixels = {0, 3, 8, 20, 34};
   s.about = {"a capture", "c0", {{"photo.exr", "00ff"}}, {{"held_out_rms", 0.25}}};
   s.bake.channels = channels, s.bake.kept = kept, s.bake.floor = 0.3;
-  for (const glm::dvec3& axis : test::dome(lobes))
+  for (const glm::dvec3& axis : realis::test::dome(lobes))
     s.bake.basis.lobes.push_back({axis, 12.5}), s.bake.basis.spread.push_back(3);
   std::mt19937 random(1);
   std::normal_distribution<float> value(0, 0.2f);
@@ -72,7 +71,7 @@ TEST_P(BakeFiles, ComeBackToTheBitAsFloats) {
       EXPECT_EQ(back.bake.coefficients[s.pixels[texel] * each + k], s.bake.coefficients[texel * each + k]);
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "coefficients_000.png"));
 }
-INSTANTIATE_TEST_SUITE_P(Realis, BakeFiles,
+INSTANTIATE_TEST_SUITE_P(Baked, BakeFiles,
                          testing::Values(Shape{1, 1, Channels::kLuminance}, Shape{7, 7, Channels::kRgb},
                                          Shape{20, 8, Channels::kLuminance}, Shape{20, 4, Channels::kRgb}),
                          [](const auto& row) {
@@ -129,27 +128,5 @@ TEST(BakeFile, RefusesLobesThatAreNotThere) {
   EXPECT_THAT(complaint_of(b.path()), testing::HasSubstr("names lobe"));
 }
 
-TEST(SurfaceMaps, ComeBackAsTheBakeSawThem) {
-  const likeness::test::TemporaryFolder folder;
-  capture_fit::Fit fit;
-  fit.normals = image::Picture(3, 2), fit.base_colors = image::Picture(3, 2);
-  fit.normals.rgb = {0, 0, 1, 0.6f, 0, 0.8f, -0.6f, 0.8f, 0, 0, 0, 0, 1, 0, 0, 0.57735f, -0.57735f, 0.57735f};
-  for (std::size_t i = 0; i < 18; ++i) fit.base_colors.rgb[i] = 0.05f * static_cast<float>(i);
-  fit.material.roughness = 0.3, fit.exposure = 1.7;
-  const capture_fit::Fit seen = thin(fit);
-  write_surface(folder.path(), fit);
-  const capture_fit::Fit back = read_surface(folder.path(), 0);
-  EXPECT_EQ(back.normals.rgb, seen.normals.rgb);
-  EXPECT_EQ(back.base_colors.rgb, seen.base_colors.rgb);
-  EXPECT_EQ(back.exposure, 1.7);
-  EXPECT_EQ(back.material.roughness, 0.3);
-  for (std::size_t i = 0; i < 18; ++i) {
-    EXPECT_NEAR(seen.normals.rgb[i], fit.normals.rgb[i], 0.006) << "half a step of 1/127, and its part of the length";
-    EXPECT_NEAR(seen.base_colors.rgb[i], fit.base_colors.rgb[i], 0.004);
-  }
-  EXPECT_EQ(seen.normals.rgb[9], 0) << "no normal stays none";
-  EXPECT_EQ(thin(seen).normals.rgb, seen.normals.rgb) << "thin twice is thin once";
-}
-
 }  // namespace
-}  // namespace likeness::realis
+}  // namespace likeness::baked
