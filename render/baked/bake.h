@@ -41,10 +41,17 @@ struct Bake {
   bool is_sparse() const { return kept < basis.lobes.size(); }
 };
 
+// What the pixels of a bake are: those of a camera's picture, or texels of a mesh. Lobes of a picture stand in the world's
+// axes; those of a mesh in the axes of the object, so that they turn with it.
+enum class Space : unsigned char { kImage, kTexture };
+
 struct About {
   std::string capture, camera;                                // names
   std::vector<std::pair<std::string, std::string>> inputs{};  // files and their SHA-256
   std::vector<std::pair<std::string, double>> metrics{};
+  Space space = Space::kImage;
+  std::string scene{}, object{};              // of a texture: the scene's file, the instance's name
+  std::string scene_sha256{}, mesh_sha256{};  // of all that cameras may see; of the object's triangles and uv
 };
 
 struct StoredBake {

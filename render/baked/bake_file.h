@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -27,6 +28,7 @@ struct Access {
   std::function<std::string(const std::filesystem::path& file, std::size_t limit)> bytes;
   std::function<image::Texels(const std::filesystem::path& file, std::size_t most_texels)> texels;
   std::function<image::Layers(const std::filesystem::path& file, std::size_t most_values)> layers;
+  std::function<bool(const std::filesystem::path& file)> exists;
 };
 Access from_files();
 
@@ -57,6 +59,19 @@ Planes read_planes(const std::filesystem::path& folder, const Header& header, co
 
 // Writes the pictures, then bake.json, each whole. Throws std::runtime_error.
 void write_bake(const std::filesystem::path& folder, const StoredBake& stored, bool is_float);
+
+// The same for who does not hold all coefficients at once: `head` has none, and is asked for three planes at a time (as
+// floats: for all). Values are those of head.pixels, in their order.
+struct PlaneSource {
+  std::vector<double> multipliers;  // largest magnitudes; channel by channel, the lobes
+  std::function<std::vector<float>(std::size_t plane)> coefficients;  // channel by channel, the kept lobes
+  std::function<std::vector<std::uint8_t>(std::size_t place)> lobes;  // of a sparse bake: which lobe that one is of
+};
+void write_bake(const std::filesystem::path& folder, const StoredBake& head, const PlaneSource& source, bool is_float);
+
+// The lobes that a texel keeps: those that are not 0 in some channel, in their order; fewer are filled up with others.
+// `coefficients` channel by channel, the lobes (at most kMostLobes).
+std::vector<std::uint8_t> kept_lobes(std::span<const float> coefficients, std::size_t channels, std::size_t kept);
 
 // All readers throw files::InputError, one line with the file and the place: what is absent, damaged, too large or does
 // not fit. Memory is asked for only when the limits hold.

@@ -12,7 +12,7 @@ using json::Key;
 
 // clang-format off
 constexpr std::array kLobeKeys{
-    Key{.name = "axis", .form = Form::kVector, .required = true, .text = "of the lobe, in the world's axes; unit"},
+    Key{.name = "axis", .form = Form::kVector, .required = true, .text = "of the lobe, unit; in the world's axes, or in those of the object whose texture it is"},
     Key{.name = "sharpness", .form = Form::kNumber, .range = {0, 1e6}, .required = true, .text = "of its Gaussian"},
     Key{.name = "spread", .form = Form::kNumber, .range = {0, 1e12}, .required = true, .text = "standard deviation that its coefficients had before anything was seen, over that of a sample"},
     Key{.name = "multiplier", .form = Form::kNumbers, .range = {0, 1e12}, .unit = "1/sr", .required = true, .text = "coefficient that 127 stands for, of each channel"},
@@ -30,6 +30,11 @@ constexpr std::array kBakeKeys{
     Key{.name = "version", .form = Form::kWhole, .range = {kBakeVersion, kBakeVersion}, .required = true, .text = "of the format"},
     Key{.name = "capture", .form = Form::kText, .text = "what was baked"},
     Key{.name = "camera", .form = Form::kText, .text = "whose picture is the texture"},
+    Key{.name = "space", .form = Form::kChoice, .choices = kSpaces, .text = "what the pixels are: those of the camera's picture, or texels of the object"},
+    Key{.name = "scene", .form = Form::kText, .text = "file that the object stands in"},
+    Key{.name = "object", .form = Form::kText, .text = "instance whose texture was baked"},
+    Key{.name = "scene_sha256", .form = Form::kText, .text = "of all of the scene that cameras may see"},
+    Key{.name = "mesh_sha256", .form = Form::kText, .text = "of the object's triangles, positions and texture coordinates"},
     Key{.name = "width", .form = Form::kWhole, .range = {1, 65536}, .unit = "pixel", .required = true, .text = "of the pictures"},
     Key{.name = "height", .form = Form::kWhole, .range = {1, 65536}, .unit = "pixel", .required = true, .text = "of the pictures"},
     Key{.name = "channels", .form = Form::kChoice, .required = true, .choices = kChannels, .text = "one residual for all colors, or one each"},

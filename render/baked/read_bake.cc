@@ -89,7 +89,8 @@ Access from_files() {
           [](const std::filesystem::path& file, std::size_t most) {
             return image::read_texels(file, {.layer = {}, .most_texels = most});
           },
-          [](const std::filesystem::path& file, std::size_t most) { return image::read_layers(file, most); }};
+          [](const std::filesystem::path& file, std::size_t most) { return image::read_layers(file, most); },
+          [](const std::filesystem::path& file) { return std::filesystem::exists(file); }};
 }
 
 Header parse_header(std::string_view text, const std::string& source) {
@@ -99,6 +100,9 @@ Header parse_header(std::string_view text, const std::string& source) {
     fields.refuse("type", " = " + files::in_quotes(fields.text("type")) + "; expected \"" + kBakeType + "\"");
   Header out;
   out.about.capture = fields.text("capture"), out.about.camera = fields.text("camera");
+  if (fields.text("space") == kSpaces[1]) out.about.space = Space::kTexture;
+  out.about.scene = fields.text("scene"), out.about.object = fields.text("object");
+  out.about.scene_sha256 = fields.text("scene_sha256"), out.about.mesh_sha256 = fields.text("mesh_sha256");
   out.width = fields.whole("width"), out.height = fields.whole("height");
   out.is_float = fields.text("storage") == kStorages[1];
   Bake& bake = out.bake;

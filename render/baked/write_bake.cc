@@ -17,33 +17,16 @@ using Json = nlohmann::ordered_json;
 
 std::uint8_t byte_of(float c, double multiplier) { return brdf::encoded(static_cast<double>(c), multiplier); }
 
-// The lobes that a texel keeps: those that are not 0 in some channel, in their order; fewer are filled up with others.
-std::vector<std::uint8_t> kept_lobes(const Bake& bake, std::size_t texel) {
-  const std::size_t lobes = bake.basis.lobes.size(), channels = bake.channel_count();
-  const float* c = bake.coefficients.data() + texel * channels * lobes;
-  std::vector<std::uint8_t> out;
-  const auto is_used = [&](std::size_t k) {
-    for (std::size_t ch = 0; ch < channels; ++ch)
-      if (c[ch * lobes + k] != 0) return true;
-    return false;
-  };
-  for (const bool used : {true, false})
-    for (std::size_t k = 0; k < lobes && out.size() < bake.kept; ++k)
-      if (is_used(k) == used) out.push_back(static_cast<std::uint8_t>(k));
-  std::sort(out.begin(), out.end());
-  return out;
-}
-
-// Planes of bytes over the picture, three a file.
-void write_planes(const std::filesystem::path& folder, const char* name, int width, int height,
-                  const std::vector<std::uint32_t>& pixels, std::size_t planes, std::uint8_t elsewhere,
-                  const auto& byte_at) {
+// Planes of bytes over the picture, three a file; 0 elsewhere.
+void write_planes(const std::filesystem::path& folder, const char* name, const StoredBake& head, std::size_t planes,
+                  const std::function<std::vector<std::uint8_t>(std::size_t)>& bytes_of) {
   for (std::size_t first = 0; first < planes; first += 3) {
-    image::DisplayPicture picture(width, height);
-    std::fill(picture.rgb.begin(), picture.rgb.end(), elsewhere);
-    for (std::size_t texel = 0; texel < pixels.size(); ++texel)
-      for (std::size_t k = 0; k < 3 && first + k < planes; ++k)
-        picture.rgb[3 * std::size_t{pixels[texel]} + k] = byte_at(texel, first + k);
+    image::DisplayPicture picture(head.width, head.height);
+    for (std::size_t k = 0; k < 3 && first + k < planes; ++k) {
+      const std::vector<std::uint8_t> bytes = bytes_of(first + k);
+      for (std::size_t texel = 0; texel < bytes.size(); ++texel)
+        picture.rgb[3 * std::size_t{head.pixels[texel]} + k] = bytes[texel];
+    }
     image::write_png(folder / numbered(name, first / 3), picture);
   }
 }
@@ -57,46 +40,93 @@ void remove_pictures(const std::filesystem::path& folder) {
 
 }  // namespace
 
+std::vector<std::uint8_t> kept_lobes(std::span<const float> coefficients, std::size_t channels, std::size_t kept) {
+  const std::size_t lobes = coefficients.size() / std::max<std::size_t>(channels, 1);
+  std::vector<std::uint8_t> out;
+  const auto is_used = [&](std::size_t k) {
+    for (std::size_t ch = 0; ch < channels; ++ch)
+      if (coefficients[ch * lobes + k] != 0) return true;
+    return false;
+  };
+  for (const bool used : {true, false})
+    for (std::size_t k = 0; k < lobes && out.size() < kept; ++k)
+      if (is_used(k) == used) out.push_back(static_cast<std::uint8_t>(k));
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
 void write_bake(const std::filesystem::path& folder, const StoredBake& stored, bool is_float) {
   const Bake& bake = stored.bake;
   const std::size_t lobes = bake.basis.lobes.size(), channels = bake.channel_count(), each = channels * lobes;
-  const std::vector<double> multipliers = multipliers_of(bake);
+  std::vector<std::vector<std::uint8_t>> kept(bake.is_sparse() ? stored.pixels.size() : 0);
+  for (std::size_t texel = 0; texel < kept.size(); ++texel)
+    kept[texel] = kept_lobes(std::span(bake.coefficients).subspan(texel * each, each), channels, bake.kept);
+  PlaneSource source;
+  source.multipliers = multipliers_of(bake);
+  source.coefficients = [&](std::size_t plane) {
+    std::vector<float> out(stored.pixels.size());
+    for (std::size_t texel = 0; texel < out.size(); ++texel) {
+      const std::size_t at =
+          kept.empty() ? plane : plane / bake.kept * lobes + std::size_t{kept[texel][plane % bake.kept]};
+      out[texel] = bake.coefficients[texel * each + at];
+    }
+    return out;
+  };
+  source.lobes = [&](std::size_t place) {
+    std::vector<std::uint8_t> out(kept.size());
+    for (std::size_t texel = 0; texel < out.size(); ++texel) out[texel] = kept[texel][place];
+    return out;
+  };
+  write_bake(folder, stored, source, is_float);
+}
+
+void write_bake(const std::filesystem::path& folder, const StoredBake& stored, const PlaneSource& source,
+                bool is_float) {
+  const Bake& bake = stored.bake;
+  const std::size_t lobes = bake.basis.lobes.size(), channels = bake.channel_count(), each = channels * lobes;
+  const std::vector<double>& multipliers = source.multipliers;
   std::filesystem::create_directories(folder);
   std::filesystem::remove(folder / kBakeFile);  // a bake without it is none: whoever reads meanwhile is told so
   remove_pictures(folder);
   if (is_float) {
+    // The file has a plane for each lobe.
     image::Layers layers{stored.width, stored.height, {}, {}};
+    const std::size_t count = static_cast<std::size_t>(stored.width) * static_cast<std::size_t>(stored.height);
     for (std::size_t plane = 0; plane < each; ++plane) {
       std::array<char, 32> name{};
       std::snprintf(name.data(), name.size(), "c%05zu", plane);
-      image::Layer layer{
-          name.data(),
-          {"Y"},
-          std::vector<float>(static_cast<std::size_t>(stored.width) * static_cast<std::size_t>(stored.height))};
-      for (std::size_t texel = 0; texel < stored.pixels.size(); ++texel)
-        layer.data[stored.pixels[texel]] = bake.coefficients[texel * each + plane];
-      layers.layers.push_back(std::move(layer));
+      layers.layers.push_back({name.data(), {"Y"}, std::vector<float>(count)});
+    }
+    for (std::size_t plane = 0; plane < (bake.is_sparse() ? channels * bake.kept : each); ++plane) {
+      const std::vector<float> values = source.coefficients(plane);
+      const std::vector<std::uint8_t> of =
+          bake.is_sparse() ? source.lobes(plane % bake.kept) : std::vector<std::uint8_t>();
+      for (std::size_t texel = 0; texel < values.size(); ++texel)
+        layers.layers[bake.is_sparse() ? plane / bake.kept * lobes + of[texel] : plane].data[stored.pixels[texel]] =
+            values[texel];
     }
     image::write_layers(folder / kFloats, layers);
-  } else if (bake.is_sparse()) {
-    std::vector<std::vector<std::uint8_t>> kept(stored.pixels.size());
-    for (std::size_t texel = 0; texel < kept.size(); ++texel) kept[texel] = kept_lobes(bake, texel);
-    write_planes(folder, "lobes", stored.width, stored.height, stored.pixels, bake.kept, 0,
-                 [&](std::size_t texel, std::size_t k) { return kept[texel][k]; });
-    write_planes(folder, "coefficients", stored.width, stored.height, stored.pixels, channels * bake.kept, 0,
-                 [&](std::size_t texel, std::size_t plane) {
-                   const std::size_t at = plane / bake.kept * lobes + kept[texel][plane % bake.kept];
-                   return byte_of(bake.coefficients[texel * each + at], multipliers[at]);
-                 });
   } else {
-    write_planes(folder, "coefficients", stored.width, stored.height, stored.pixels, each, 0,
-                 [&](std::size_t texel, std::size_t plane) {
-                   return byte_of(bake.coefficients[texel * each + plane], multipliers[plane]);
-                 });
+    if (bake.is_sparse()) write_planes(folder, "lobes", stored, bake.kept, source.lobes);
+    write_planes(folder, "coefficients", stored, channels * bake.kept, [&](std::size_t plane) {
+      const std::vector<float> values = source.coefficients(plane);
+      const std::vector<std::uint8_t> of =
+          bake.is_sparse() ? source.lobes(plane % bake.kept) : std::vector<std::uint8_t>();
+      std::vector<std::uint8_t> out(values.size());
+      for (std::size_t texel = 0; texel < out.size(); ++texel)
+        out[texel] =
+            byte_of(values[texel], multipliers[bake.is_sparse() ? plane / bake.kept * lobes + of[texel] : plane]);
+      return out;
+    });
   }
   Json out;
   out["type"] = kBakeType, out["version"] = kBakeVersion;
   out["capture"] = stored.about.capture, out["camera"] = stored.about.camera;
+  out["space"] = kSpaces[static_cast<std::size_t>(stored.about.space)];
+  if (stored.about.space == Space::kTexture) {
+    out["scene"] = stored.about.scene, out["object"] = stored.about.object;
+    out["scene_sha256"] = stored.about.scene_sha256, out["mesh_sha256"] = stored.about.mesh_sha256;
+  }
   out["width"] = stored.width, out["height"] = stored.height;
   out["channels"] = kChannels[static_cast<std::size_t>(bake.channels)];
   out["storage"] = kStorages[is_float ? 1 : 0];
