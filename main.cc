@@ -25,15 +25,17 @@
 #include "olat/render/command.h"
 #include "olat/view/command.h"
 #include "realis/command.h"
+#include "realis/export/command.h"
 #include "realis/report/command.h"
 #include "render/command/command.h"
 #include "render/cost/command.h"
 #include "render/files/files.h"
+#include "render/files/interrupt.h"
 #include "render/mip/command.h"
 
 namespace {
 
-enum ExitCode { kDone = 0, kUsage = 2, kBadInput = 3, kOurFault = 4 };
+enum ExitCode { kDone = 0, kUsage = 2, kBadInput = 3, kOurFault = 4, kInterrupted = 130 };
 
 constexpr auto kFooter = R"(Examples
   likeness fit gold.binary --out out/gold      fit one measured material, and write a report
@@ -48,8 +50,9 @@ constexpr auto kFooter = R"(Examples
   likeness plan room.json                      which effects a scene calls for, and why
   likeness olat import photos/                 photographs, one light at a time: compare them with renders
   likeness realis bake capture/                what the renders of a capture lack, to be added at run time
+  likeness realis export capture/ --help       that for relighting programs of others, and as a page to look at
 
-Exit codes: 0 done, 1 a check said no, 2 usage, 3 a file cannot be used, 4 the program failed.
+Exit codes: 0 done, 1 a check said no, 2 usage, 3 a file cannot be used, 4 the program failed, 130 interrupted.
 Manual: docs/README.md)";
 
 // The subcommand that was being read when parsing stopped, with the words that led to it.
@@ -136,7 +139,9 @@ int main(int argc, char** argv) try {
   likeness::olat_check::add_check(olat, exit_code);
   likeness::olat_compare::add_compare(olat, exit_code);
   likeness::olat_view::add_view(olat, exit_code);
-  likeness::realis::add_report(likeness::realis::add_realis(program, exit_code), exit_code);
+  CLI::App& realis = likeness::realis::add_realis(program, exit_code);
+  likeness::realis::add_report(realis, exit_code);
+  likeness::realis::add_export(realis, exit_code);
   program.footer(kFooter);  // last: a subcommand made after it would repeat it
 
   try {
@@ -147,6 +152,8 @@ int main(int argc, char** argv) try {
     return fail(kUsage, usage_message(program, error));
   } catch (const likeness::files::UsageError& error) {
     return fail(kUsage, innermost(program).words + ": " + error.what());
+  } catch (const likeness::files::Interrupted&) {
+    return fail(kInterrupted, innermost(program).words + ": interrupted; files are whole or were not touched");
   }
   return exit_code;
 } catch (const likeness::files::InputError& error) {
