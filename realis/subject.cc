@@ -5,12 +5,23 @@
 
 #include <tbb/parallel_for.h>
 
+#include "realis/weight/samples.h"
 #include "render/capture/pixels.h"
 #include "render/capture/sight.h"
 #include "render/files/files.h"
 #include "render/files/interrupt.h"
 
 namespace likeness::realis {
+
+void LightCensus::add(const std::array<float, 3>& photo, std::uint8_t flaws) {
+  ++samples;
+  if ((flaws & capture::kNotFinite) != 0) ++not_finite;
+  else if ((flaws & capture::kClipped) != 0) ++clipped;
+  else {
+    const double shown = weight::luminance(photo);
+    negative += shown < 0 ? 1 : 0, sum += shown;
+  }
+}
 
 Subject read_subject(const capture::Capture& capture, std::size_t camera, const Renderer& render,
                      std::span<const std::size_t> leave_out, const GoesOn& goes_on) {
@@ -36,6 +47,7 @@ Subject read_subject(const capture::Capture& capture, std::size_t camera, const 
 
   const std::size_t lights = s.lights.size(), samples = s.texels() * lights;
   s.photo.resize(samples), s.render.resize(samples), s.cosine.assign(samples, 1.0f), s.weight.assign(samples, 1.0f);
+  s.census.resize(lights);
   // A few photographs at a time: each is read, and strewn over the texels.
   constexpr std::size_t kAtOnce = 8;
   for (std::size_t begin = 0; begin < lights; begin += kAtOnce) {
@@ -63,6 +75,11 @@ Subject read_subject(const capture::Capture& capture, std::size_t camera, const 
         if ((photo.flaws[pixel] & (capture::kClipped | capture::kNotFinite)) != 0) s.weight[sample] = 0;
       }
     });
+    for (std::size_t i = begin; i < end; ++i)
+      for (const std::uint32_t pixel : s.pixels) {
+        const float* rgb = photos[i - begin].light.rgb.data() + 3 * std::size_t{pixel};
+        s.census[i].add({rgb[0], rgb[1], rgb[2]}, photos[i - begin].flaws[pixel]);
+      }
   }
   return s;
 }

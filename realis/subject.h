@@ -25,6 +25,13 @@ struct Rendered {
 };
 using Renderer = std::function<Rendered(std::size_t light)>;
 
+// The photographs of one light, inside the subject.
+struct LightCensus {
+  std::size_t samples = 0, clipped = 0, not_finite = 0, negative = 0;  // negative: of luminance below 0
+  double sum = 0;                                                      // of luminance, of those that are neither
+  void add(const std::array<float, 3>& photo, std::uint8_t flaws);     // bits of capture::Flaw
+};
+
 // Of each sample (a texel under a light), texel by texel, in each the lights.
 struct Subject {
   std::size_t camera = 0;
@@ -36,6 +43,7 @@ struct Subject {
   std::vector<std::array<float, 3>> photo, render;
   std::vector<float> cosine;
   std::vector<float> weight;  // [0, 1], how far the photo can be trusted: 0 where it is clipped, black or not finite
+  std::vector<LightCensus> census{};  // of each light
 
   double irradiance_of(std::size_t light) const { return irradiance.empty() ? 1 : irradiance[light]; }
   std::size_t texels() const { return pixels.size(); }
