@@ -46,7 +46,8 @@ int run_import(const ImportOptions& options, bool json) {
               << (done.missing.size() == 1 ? "is" : "are") << " not there, the first is "
               << files::in_quotes(done.missing[0]) << '\n';
   std::cout << "Next: likeness olat render " << root
-            << (count_of(capture, capture::Layer::kNormal) > 0 ? " --from-normals" : " --scene scene.json") << '\n';
+            << (count_of(capture, capture::Layer::kNormal) > 0 ? " --from-normals" : " --scene scene.json")
+            << "\n  or: likeness realis report " << root << "   (relight it, and how near that comes)\n";
   return 0;
 }
 
