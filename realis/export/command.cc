@@ -19,7 +19,7 @@ namespace likeness::realis {
 namespace {
 
 struct Request {
-  std::string capture, out, format, lights, ev = "auto";
+  std::string capture, out, format = "rbf", lights, ev = "auto";
   ExportOptions options;
   bool is_json = false;
 };
@@ -135,7 +135,7 @@ void add_export(CLI::App& realis, int& exit_code) {
   for (const FormatRow& row : kFormats)
     formats += "\n  " + std::string(row.name) + std::string(10 - row.name.size(), ' ') + std::string(row.text);
   sub->add_option("CAPTURE", request->capture, "folder with capture.json (likeness olat import)")->required();
-  sub->add_option("--format", request->format, "one of those below")->required();
+  sub->add_option("--format", request->format, "one of those below")->capture_default_str();
   sub->add_option("--out", request->out, "folder, empty or not there")->required();
   sub->add_option("--name", request->options.name, "of the bake")->capture_default_str();
   sub->add_option(
@@ -154,8 +154,8 @@ Planes are JPEG with an info.json as relight writes them and OpenLIME reads them
 display values: sRGB curve, 8 bit. How far they are from `likeness realis apply` is measured and printed.
 
 Examples
-  likeness realis export capture --format hsh --out web          planes and a page: open web/index.html
-  likeness realis export capture --format lp --out rti           the photographs and lights.lp, for RTI programs
+  likeness realis export capture --out web                planes and a page: open web/index.html
+  likeness realis export capture --format lp --out rti    the photographs and lights.lp, for RTI programs
   likeness realis export capture --format lp --lights 64 --out dome   64 relit pictures as if of a dome
 
 Exit codes: 0 done, 2 usage, 3 a file cannot be used, 4 the program failed, 130 interrupted (nothing is left).

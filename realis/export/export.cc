@@ -1,6 +1,7 @@
 #include "realis/export/export.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <system_error>
@@ -135,19 +136,42 @@ std::vector<glm::dvec3> some_of(const std::vector<Photographed>& all) {
   return out;
 }
 
-void write_planes(const Relightable& subject, const Source& source, const ExportOptions& options, const GoesOn& goes_on,
-                  Folder& folder, Exported& out) {
+// Planes of a bake, and what there is to say of them.
+struct Told {
+  Planes planes;
+  PageFacts facts;
+};
+
+Told planes_of(const Relightable& subject, const Source& source, Format format, int quality, double ev,
+               const GoesOn& goes_on) {
   Lit lit{subject.stored.width, subject.stored.height, source.to_lights, {}};
-  lit.picture = [&](std::size_t light) { return displayed(source.picture(light), out.ev); };
-  const Planes planes = fit_planes(options.format, lit, options.quality, goes_on);
+  lit.picture = [&](std::size_t light) { return displayed(source.picture(light), ev); };
+  Told out{fit_planes(format, lit, quality, goes_on), {subject.capture.name, {}, {}, {}}};
   const std::vector<Photographed> seen = photographed(subject.capture, subject.camera);
-  const Viewer viewer(planes);
-  out.planes = planes.count();
-  out.psnr_disc = psnr_of(viewer, subject, on_disc(kTried + 1), out.ev, goes_on);
+  for (const Photographed& one : seen) out.facts.photographed.push_back(one.to_light);
+  const Viewer viewer(out.planes);
+  out.facts.psnr_disc = psnr_of(viewer, subject, on_disc(kTried + 1), ev, goes_on);
   if (const auto tried = some_of(seen); !tried.empty())
-    out.psnr_photographed = psnr_of(viewer, subject, tried, out.ev, goes_on);
-  PageFacts facts{subject.capture.name, {}, out.psnr_disc, out.psnr_photographed};
-  for (const Photographed& one : seen) facts.photographed.push_back(one.to_light);
+    out.facts.psnr_photographed = psnr_of(viewer, subject, tried, ev, goes_on);
+  return out;
+}
+
+Source relit_on_disc(const Relightable& subject, std::size_t count) {
+  Source out;
+  out.to_lights = on_disc(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    std::array<char, 32> name{};
+    std::snprintf(name.data(), name.size(), "light_%04zu", i);
+    out.names.emplace_back(name.data());
+  }
+  out.picture = [&subject, lights = out.to_lights](std::size_t i) { return relit(subject, lights[i]); };
+  return out;
+}
+
+void write_planes(const Told& told, Folder& folder, Exported& out) {
+  const auto& [planes, facts] = told;
+  out.planes = planes.count();
+  out.psnr_disc = facts.psnr_disc, out.psnr_photographed = facts.psnr_photographed;
   for (std::size_t i = 0; i < planes.jpegs.size(); ++i)
     folder.write("plane_" + std::to_string(i) + ".jpg", planes.jpegs[i]);
   folder.write("info.json", info_text(planes, facts.photographed));
@@ -185,14 +209,7 @@ Exported export_capture(const capture::Capture& capture, const ExportOptions& op
   Exported out;
   Source source;
   std::vector<std::uint8_t> mask;
-  if (from == LightsFrom::kDisc) {
-    source.to_lights = on_disc(options.count);
-    for (std::size_t i = 0; i < options.count; ++i) {
-      std::array<char, 32> name{};
-      std::snprintf(name.data(), name.size(), "light_%04zu", i);
-      source.names.emplace_back(name.data());
-    }
-  }
+  if (from == LightsFrom::kDisc) source = relit_on_disc(*subject, options.count);
   const std::vector<Photographed> seen = photographed(capture, camera);
   if (from != LightsFrom::kDisc) {
     for (const Photographed& one : seen) {
@@ -206,7 +223,8 @@ Exported export_capture(const capture::Capture& capture, const ExportOptions& op
                               "bake instead");
   }
   if (is_relit) {
-    source.picture = [&](std::size_t i) { return relit(*subject, source.to_lights[i]); };
+    if (from == LightsFrom::kCapture)
+      source.picture = [&](std::size_t i) { return relit(*subject, source.to_lights[i]); };
     mask.assign(static_cast<std::size_t>(subject->stored.width) * static_cast<std::size_t>(subject->stored.height), 0);
     for (const std::uint32_t pixel : subject->stored.pixels) mask[pixel] = 1;
   } else {
@@ -218,9 +236,17 @@ Exported export_capture(const capture::Capture& capture, const ExportOptions& op
   out.lights = source.to_lights.size();
   out.ev = options.ev ? *options.ev : exposure_of_source(source);
   if (is_lp) write_pictures(source, mask, options, goes_on, folder, out);
-  else write_planes(*subject, source, options, goes_on, folder, out);
+  else write_planes(planes_of(*subject, source, options.format, options.quality, out.ev, goes_on), folder, out);
   folder.keep(out);
   return out;
+}
+
+std::string relight_page(const capture::Capture& capture, const std::string& name, const GoesOn& goes_on) {
+  const Relightable subject = read_relightable(capture, name);
+  const ExportOptions usual;
+  const Source source = relit_on_disc(subject, usual.count);
+  const Told told = planes_of(subject, source, usual.format, usual.quality, exposure_of_source(source), goes_on);
+  return page_of(told.planes, told.facts);
 }
 
 }  // namespace likeness::realis

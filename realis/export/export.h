@@ -24,7 +24,7 @@ struct ExportOptions {
   std::filesystem::path out;
   std::string name = "bake";
   std::string camera;  // of photographs; empty: the bake's, or the only one
-  Format format = Format::kHsh;
+  Format format = Format::kRbf;
   std::optional<LightsFrom>
       lights{};                // absent: kPhotographs of kLp, else kDisc, which is all that planes are made from
   std::size_t count = 256;     // of kDisc
@@ -57,5 +57,8 @@ struct PageFacts {
   std::optional<double> psnr_disc, psnr_photographed;
 };
 std::string page_of(const Planes& planes, const PageFacts& facts);
+
+// That page of a bake, with the planes of ExportOptions as it is. Throws as export_capture() does.
+std::string relight_page(const capture::Capture& capture, const std::string& name, const GoesOn& goes_on);
 
 }  // namespace likeness::realis

@@ -75,7 +75,8 @@ Errors errors_of(std::span<const std::array<float, 3>> predicted, std::span<cons
 // measures; absent: the baseline is not beaten.
 const Row* winner_over(const Study& study, const Row& baseline);
 
-std::string page_of(const Study& study);
+// `relight` is the page, beside this one, on which a bake is relit; empty: there is none.
+std::string page_of(const Study& study, const std::string& relight);
 std::string csv_of(const Study& study);
 std::string json_of(const Study& study);
 std::string table_of(const Study& study);

@@ -209,9 +209,12 @@ std::string json_of(const Study& s) {
   return out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-std::string page_of(const Study& s) {
+std::string page_of(const Study& s, const std::string& relight) {
   const std::string title = "Light that nobody photographed: " + s.capture;
   std::string out = page::page_head(title) + element("h1", title) + element("p", foreword(s) + ".");
+  if (!relight.empty())
+    out += "<p><a href=\"" + escape(relight) +
+           "\">Move the light over the subject yourself</a>: the bake of all lights.</p>";
   if (!s.is_complete) out += "<p class=\"note\">The study was interrupted: rows are missing.</p>";
   if (s.rows.empty()) return out + page::page_foot();
   out +=
