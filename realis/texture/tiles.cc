@@ -12,6 +12,7 @@
 #include <tbb/parallel_for.h>
 
 #include "realis/solve.h"
+#include "render/baked/bake_file.h"
 #include "render/capture/sight.h"
 #include "render/files/files.h"
 
