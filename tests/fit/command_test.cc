@@ -195,16 +195,15 @@ TEST_F(FitCommand, ABatchGoesPastBadFilesAndListsThemAtTheEnd) {
 // ends where an undisturbed run ends.
 TEST_F(FitCommand, AStoppedBatchResumes) {
   const fs::path in = make_batch(5);
+  const auto began = std::chrono::steady_clock::now();
   ASSERT_EQ(run(quick(in, folder / "whole")).exit_code, 0);
+  const auto whole = std::chrono::steady_clock::now() - began;
   const auto want = results_in(folder / "whole");
   ASSERT_EQ(want.size(), 10u);
-  const auto began = std::chrono::steady_clock::now();
-  ASSERT_EQ(run(quick(in, folder / "timed")).exit_code, 0);
-  const auto whole = std::chrono::steady_clock::now() - began;
   int unfinished = 0;
   for (const int signal : {SIGKILL, SIGINT, SIGTERM})
-    for (const int tenths : {2, 4, 7}) {
-      if (signal == SIGTERM && tenths != 4) continue;  // it is handled as SIGINT is
+    for (const int tenths : {3, 6}) {
+      if (signal == SIGTERM && tenths != 3) continue;  // it is handled as SIGINT is
       SCOPED_TRACE("signal " + std::to_string(signal) + " after " + std::to_string(tenths) + " tenths");
       const fs::path out = folder / ("out_" + std::to_string(signal) + "_" + std::to_string(tenths));
       const pid_t child = start(quick(in, out), folder / ".out", folder / ".error");
@@ -227,7 +226,7 @@ TEST_F(FitCommand, AStoppedBatchResumes) {
       for (const auto& [name, time] : finished) EXPECT_EQ(fs::last_write_time(out / name), time) << name;
       EXPECT_EQ(results_in(out), want);
     }
-  EXPECT_GE(unfinished, 3) << "too few runs were stopped in the middle to say anything";
+  EXPECT_GE(unfinished, 2) << "too few runs were stopped in the middle to say anything";
 }
 
 TEST_F(FitCommand, ChangedOptionsInputsOrDamagedResultsAreFittedAgain) {
