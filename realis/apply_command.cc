@@ -59,7 +59,12 @@ int run_apply(const ApplyRequest& request) {
   const std::size_t camera = camera_named(capture, stored.about.camera);
   const capture_fit::Fit surface = read_surface(folder, camera);
   std::vector<Beam> beams;
-  for (const std::string& light : request.lights) beams.push_back(beam_of(light));
+  // Cameras look along z with y down, in the world as cameras.json has them.
+  const glm::dmat3 world_from_camera(capture.cameras[camera].world_from_camera);
+  for (const std::string& light : request.lights) {
+    beams.push_back(beam_of(light));
+    beams.back().to_light = world_from_camera * (beams.back().to_light * glm::dvec3(1, -1, -1));
+  }
   if (!request.environment.empty())
     beams = beams_of(image::read_picture(request.environment), static_cast<std::size_t>(request.beams));
   const Relit relit = relight(capture, stored, surface, beams);

@@ -156,7 +156,7 @@ display values: sRGB curve, 8 bit. How far they are from `likeness realis apply`
 Examples
   likeness realis export capture --out web                planes and a page: open web/index.html
   likeness realis export capture --format lp --out rti    the photographs and lights.lp, for RTI programs
-  likeness realis export capture --format lp --lights 64 --out dome   64 relit pictures as if of a dome
+  likeness realis export capture --format lp --lights 64 --out dome    64 relit pictures as if of a dome
 
 Exit codes: 0 done, 2 usage, 3 a file cannot be used, 4 the program failed, 130 interrupted (nothing is left).
 Manual: docs/realis_export.md)");

@@ -65,6 +65,9 @@ std::string page_of(const Planes& planes, const PageFacts& facts) {
   out += page::element("p", loss);
   out += "<script>\n\"use strict\";\nconst planes = [";
   for (const std::string& jpeg : planes.jpegs) out += "\"data:image/jpeg;base64," + page::base64(jpeg) + "\",\n";
+  out += "];\nconst rings = [";
+  for (const glm::dvec3& light : facts.photographed)
+    out += "[" + page::fixed(light.x, 4) + "," + page::fixed(light.y, 4) + "," + page::fixed(light.z, 4) + "],";
   out += "];\nconst info = " + in_script(info_text(planes, facts.photographed)) + ";" + std::string(kPageScript) +
          "</script>\n";
   return out + page::page_foot();

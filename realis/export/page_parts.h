@@ -2,7 +2,7 @@
 
 #include <string_view>
 
-// The page's own style and script. `info` is info.json, `planes` the URLs of its JPEGs, `photographed` x and y of lights.
+// The page's own style and script. `info` is info.json, `planes` the URLs of its JPEGs, `rings` the directions of photographs' lights.
 namespace likeness::realis {
 
 inline constexpr std::string_view kPageLook = R"css(
@@ -74,10 +74,17 @@ function draw() {
 // "From the upper right, 35 degrees above the picture".
 function words([x, y, z]) {
   const r = Math.hypot(x, y), across = Math.round(Math.asin(z) * 180 / Math.PI);
-  if (r < 0.05) return "From the camera.";
+  if (r < 0.05) return "From the camera's side.";
   const side = Math.abs(x) > 0.38 * r ? (x > 0 ? "right" : "left") : "";
   const end = Math.abs(y) > 0.38 * r ? (y > 0 ? "top" : "bottom") : "";
   return `From the ${[end, side].filter(Boolean).join(" ")}, ${across}° above the plane of the picture.`;
+}
+
+// How far the nearest photograph's light is, where that is far.
+function caution(at) {
+  const cosines = rings.map((ring) => ring.reduce((sum, value, k) => sum + value * at[k], 0));
+  const nearest = Math.round(Math.acos(Math.min(1, Math.max(-1, ...cosines))) * 180 / Math.PI);
+  return rings.length && nearest >= 25 ? ` The nearest photograph's light is ${nearest}° away.` : "";
 }
 
 function move(x, y) {
@@ -85,7 +92,7 @@ function move(x, y) {
   light = [x / r, y / r, 0];
   light[2] = Math.sqrt(Math.max(0, 1 - light[0] ** 2 - light[1] ** 2));
   pad.querySelector("#bulb").setAttribute("transform", `translate(${100 * light[0]} ${-100 * light[1]})`);
-  said.textContent = words(light);
+  said.textContent = words(light) + caution(light);
   requestAnimationFrame(draw);
 }
 

@@ -30,6 +30,13 @@ Relightable read_relightable(const capture::Capture& capture, const std::string&
                             "; `likeness realis bake " + capture.root.string() +
                             (name == "bake" ? "" : " --name " + name) + "` makes it");
   Relightable out{capture, 0, read_bake(folder), {}};
+  if (out.stored.about.space == baked::Space::kTexture)
+    throw files::UsageError("the bake " + files::in_quotes(name) +
+                            " is of a mesh in its texture; exported are bakes of a camera's picture (without --scene)");
+  if (!std::filesystem::exists(folder / "surface.json"))
+    throw files::UsageError(
+        "the bake " + files::in_quotes(name) +
+        " is over renders of a variant, which cannot be made for other lights; bake without --variant");
   out.camera = capture::camera_of(capture, out.stored.about.camera);
   if (out.camera == capture::kAbsent)
     throw files::InputError((folder / "bake.json").string() + ": camera " + files::in_quotes(out.stored.about.camera) +

@@ -50,7 +50,8 @@ Planes fit_planes(Format format, const Lit& lit, int quality, const GoesOn& goes
 // The planes as a viewer decodes them.
 class Viewer {
  public:
-  explicit Viewer(const Planes& planes);
+  explicit Viewer(const Planes& planes);  // keeps the reference
+  explicit Viewer(Planes&&) = delete;
   // Display values, in [0, 1].
   image::Picture picture(const glm::dvec3& to_light) const;
 
