@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <cstdio>
 
@@ -24,6 +25,13 @@ std::string pad_of(const std::vector<glm::dvec3>& photographed) {
   return out + R"(<g id="bulb"><circle r="9" fill="#ffd54a" stroke="#1c1f23" stroke-width="2"/></g></svg>)";
 }
 
+std::string rings_said(const std::vector<glm::dvec3>& photographed) {
+  const auto count = std::ranges::count_if(photographed, [](const glm::dvec3& light) { return light.z > 0; });
+  const auto behind = static_cast<std::ptrdiff_t>(photographed.size()) - count;
+  return "Rings: lights that photographs were taken under, " + std::to_string(count) +
+         (behind > 0 ? "; " + std::to_string(behind) + " more shone from behind the plane of the picture." : ".");
+}
+
 // Of a script: no text in it may end the script's element.
 std::string in_script(std::string text) {
   for (std::size_t at = 0; (at = text.find("</", at)) != text.npos; at += 3) text.insert(at + 1, "\\");
@@ -36,7 +44,6 @@ std::string page_of(const Planes& planes, const PageFacts& facts) {
   const std::string title = facts.capture + ": move the light";
   std::string head = page::page_head(title);
   head.insert(head.find("</style>"), kPageLook);
-  const std::size_t lights = facts.photographed.size();
   std::string out =
       head + page::element("h1", title) +
       "<p>Drag on the picture or on the disc. The light comes from where you point, as seen from the middle; "
@@ -45,9 +52,7 @@ std::string page_of(const Planes& planes, const PageFacts& facts) {
       "</noscript><div class=\"stage\"><canvas id=\"picture\" role=\"img\" aria-label=\"The subject under "
       "the light\"></canvas><div>" +
       pad_of(facts.photographed) + "<p id=\"said\" aria-live=\"polite\"></p>" +
-      page::element("p", "Rings: the " + std::to_string(lights) + (lights == 1 ? " light" : " lights") +
-                             " that photographs were taken under.") +
-      "</div></div><h2>What this is</h2>";
+      page::element("p", rings_said(facts.photographed)) + "</div></div><h2>What this is</h2>";
   out += page::element(
       "p",
       "Not photographs: a render of what was fitted to them, and what it lacks of them, baked over the direction of "

@@ -7,7 +7,7 @@ namespace likeness::realis {
 
 inline constexpr std::string_view kPageLook = R"css(
 .stage{display:grid;grid-template-columns:minmax(0,1fr) 240px;gap:20px;align-items:start}
-#picture{display:block;width:100%;height:auto;max-height:82vh;object-fit:contain;object-position:left top;background:#000;cursor:crosshair;touch-action:none}
+#picture{display:block;width:100%;height:auto;max-height:82vh;object-fit:contain;object-position:left top;cursor:crosshair;touch-action:none}
 #pad{display:block;width:100%;max-width:240px;height:auto;touch-action:none;cursor:crosshair}
 #pad:focus-visible{outline:3px solid var(--mark);outline-offset:2px}
 #said{min-height:3em}
