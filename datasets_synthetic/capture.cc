@@ -133,20 +133,20 @@ double gain_of(const CaptureFaults& faults, std::size_t light) {
 // Of every object's radiance for a light of irradiance 1 (near lights: at 1 m): a skin-like Lambert surface that faces it.
 constexpr std::array kObjectColor{0.20, 0.11, 0.08};
 
-// Something that is no part of the subject, before the camera: left of the middle and above it.
+// Something that is no part of the subject, before the camera.
 void cover(const CaptureFaults& faults, std::size_t light, Picture& picture) {
   for (const CaptureFaults::Object& object : faults.objects) {
     if (object.light != light) continue;
     const double radius = 0.5 * object.size * std::min(picture.width, picture.height);
     for (int y = 0; y < picture.height; ++y)
       for (int x = 0; x < picture.width; ++x)
-        if (std::hypot(x + 0.5 - 0.35 * picture.width, y + 0.5 - 0.35 * picture.height) < radius)
-          for (std::size_t c = 0; c < 3; ++c) picture.at(x, y)[c] = static_cast<float>(kObjectColor[c]);
+        if (std::hypot(x + 0.5 - object.x * picture.width, y + 0.5 - object.y * picture.height) < radius)
+          for (std::size_t c = 0; c < 3; ++c) picture.at(x, y)[c] = static_cast<float>(object.gain * kObjectColor[c]);
   }
 }
 
 // What the camera does to the light, pixel by pixel, with random numbers of this frame's own.
-void expose(const CaptureFaults& faults, double gain, Random random, Picture& picture) {
+void expose(const CaptureFaults& faults, double gain, Random random, Random dead, Picture& picture) {
   const double read = faults.read_noise / (faults.full_well > 0 ? faults.full_well : 1000);
   const bool has_noise = read > 0 || faults.full_well > 0;
   for (float& value : picture.rgb) {
@@ -156,9 +156,13 @@ void expose(const CaptureFaults& faults, double gain, Random random, Picture& pi
       x += std::sqrt(shot + read * read) * random.normal();
     }
     if (faults.black > 0) x = std::max(x - faults.black, 0.0);
+    if (faults.dark > 0 && x < faults.dark) x = 0;
     if (faults.clip > 0) x = std::min(x, faults.clip);
     value = capture::encoded_of(faults.curve, static_cast<float>(x));
   }
+  if (!(faults.dead > 0)) return;
+  for (std::size_t i = 0; i < picture.rgb.size(); i += 3)
+    if (dead.chance(faults.dead)) std::fill_n(picture.rgb.begin() + static_cast<std::ptrdiff_t>(i), 3, 0.0f);
 }
 
 void write_layers_of(const CaptureOptions& options, Capture& capture, std::size_t at) {
@@ -212,6 +216,8 @@ std::string truth_text(const CaptureOptions& options, const Capture& capture, co
     faults["full_well_electrons"] = f.full_well;
   }
   if (f.black > 0) faults["black"] = f.black;
+  if (f.dark > 0) faults["dark"] = f.dark;
+  if (f.dead > 0) faults["dead"] = f.dead;
   if (f.clip > 0) faults["clip"] = f.clip;
   if (f.curve != capture::Transfer::kLinear) faults["curve"] = capture::kTransfers[static_cast<std::size_t>(f.curve)];
   for (const std::size_t pair : missing) faults["missing"].push_back(pair_text(capture, pair));
@@ -327,7 +333,7 @@ MadeCapture make_capture(const CaptureOptions& options) {
       Picture photo = shoot(options, capture.cameras[c], capture.lights[source],
                             {faults.shift_x, faults.shift_y, faults.shadow_offset_m, faults.residue});
       cover(faults, source, photo);
-      expose(faults, gain_of(faults, source), Random(options.seed, 100 + pair), photo);
+      expose(faults, gain_of(faults, source), Random(options.seed, 100 + pair), Random(options.seed, 3 + c), photo);
       capture::Frame& frame = capture.frames.emplace_back();
       frame.camera = c;
       frame.light = l;

@@ -16,7 +16,8 @@
 namespace likeness::datasets_synthetic {
 
 // Faults of photographs, or of what the capture's files say of them. A pair's faults act in this order: where the shadow
-// falls, residue, mirror and shift (the geometry of the picture), object, light gain, noise, black, clip, curve, swap.
+// falls, residue, mirror and shift (the geometry of the picture), object, light gain, noise, black, dark, clip, dead, curve,
+// swap.
 struct CaptureFaults {
   struct LightGain {
     std::size_t light = 0;
@@ -25,11 +26,13 @@ struct CaptureFaults {
   double shift_x = 0, shift_y = 0;  // [pixel]: the photograph shows the subject that much to the right and down
   std::vector<LightGain> gains;     // the light was brighter than lights.json says
   std::vector<std::array<std::size_t, 2>> swaps;  // each one's photographs are called by the other's id
-  // A disc before the subject while one light shines, as wide as that share of the picture's shorter side, left of
-  // the middle and above it.
+  // A disc before the subject while one light shines, as wide as that share of the picture's shorter side. Its middle is
+  // at (x, y) of the picture's width and height, unless asked otherwise left of the picture's middle and above it.
   struct Object {
     std::size_t light = 0;
     double size = 0;
+    double x = 0.35, y = 0.35;
+    double gain = 1;  // of its radiance
   };
   std::vector<Object> objects;
   double shadow_offset_m = 0;  // the shadow is cast by a ball that much to the right (world's x)
@@ -37,6 +40,8 @@ struct CaptureFaults {
   double read_noise = 0;       // standard deviation of a dark pixel [electron]
   double full_well = 0;        // electrons at 1, for shot noise; 0: none, and read noise is in thousandths of 1
   double black = 0;            // is subtracted, and what is below becomes 0: light that is lost
+  double dark = 0;             // what is below becomes 0, nothing is subtracted: a sensor that sees no less
+  double dead = 0;             // share of the pixels that are 0 under every light, drawn with the seed
   double clip = 0;             // what is above becomes it, and frames.json says so; 0: nothing is clipped
   capture::Transfer curve = capture::Transfer::kLinear;  // is in the photographs; frames.json calls them linear
   std::size_t missing = 0, duplicated = 0;               // frames, drawn with the seed

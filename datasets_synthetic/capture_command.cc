@@ -94,6 +94,8 @@ void run(CaptureCommand asked) {
   within("read-noise", faults.read_noise, 0, 1e6);
   within("full-well", faults.full_well, 0, 1e9);
   within("black", faults.black, 0, 1);
+  within("dark", faults.dark, 0, 1);
+  within("dead", faults.dead, 0, 1);
   within("clip", faults.clip, 0, 1e6);
   const double pairs = double(options.cameras) * options.lights;
   faults.missing = static_cast<std::size_t>(whole_within("missing", asked.missing, 0, pairs - 1));
@@ -190,6 +192,8 @@ void add_make_capture(CLI::App& make, int& exit_code) {
                   "Electrons, standard deviation of a dark pixel (without --full-well: thousandths of 1)")
       ->group(group);
   sub->add_option("--black", faults.black, "Light that is subtracted and lost: what is below becomes 0")->group(group);
+  sub->add_option("--dark", faults.dark, "What is below becomes 0, and nothing is subtracted")->group(group);
+  sub->add_option("--dead", faults.dead, "Share of the pixels that are 0 under every light")->group(group);
   sub->add_option("--clip", faults.clip, "The sensor is full there; frames.json says so")->group(group);
   sub->add_option("--curve", asked->curve, "srgb, rec709 or gamma22 in photographs that frames.json calls linear")
       ->group(group);

@@ -34,8 +34,8 @@ double mean_irradiance(const Subject& s) {
   return s.lights.empty() ? 1 : sum / static_cast<double>(s.lights.size());
 }
 
-// Texels that are seen by every light, in a random order that the seed decides; of all if there are none.
-Sampled sampled_of(const Subject& s, std::uint64_t seed) {
+// Texels of which half of the lights can be trusted, in a random order that the seed decides; of all if there are none.
+Sampled sampled_of(const Subject& s, std::uint64_t seed, bool by_stops) {
   Sampled out;
   out.to_lights = s.to_lights;
   std::vector<std::size_t> order(s.texels());
@@ -43,21 +43,23 @@ Sampled sampled_of(const Subject& s, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   const std::size_t lights = s.lights.size();
   const double mean = mean_irradiance(s);
+  bool is_weighed = false;
   std::size_t taken = 0;
   for (std::size_t i = 0; i < order.size() && taken < kTexelsToChooseBy; ++i) {
     std::swap(order[i], order[i + random() % (order.size() - i)]);
     const std::size_t first = s.samples_of(order[i]);
-    const bool is_seen =
-        std::all_of(s.weight.begin() + static_cast<std::ptrdiff_t>(first),
-                    s.weight.begin() + static_cast<std::ptrdiff_t>(first + lights), [](float w) { return w > 0; });
-    if (!is_seen) continue;
-    for (std::size_t k = 0; k < lights; ++k)
-      out.residuals.push_back(
-          static_cast<float>(error_of(s, first + k, Channels::kLuminance, 0) * mean / s.irradiance_of(k)));
-    for (std::size_t k = 0; k < lights; ++k)
-      out.photos.push_back(static_cast<float>(luminance(s.photo[first + k]) * mean / s.irradiance_of(k)));
+    const std::span weights(s.weight.data() + first, lights);
+    if (std::accumulate(weights.begin(), weights.end(), 0.0) < 0.5 * static_cast<double>(lights)) continue;
+    for (std::size_t k = 0; k < lights; ++k) {
+      const double share = mean / s.irradiance_of(k), photo = luminance(s.photo[first + k]);
+      out.residuals.push_back(static_cast<float>(error_of(s, first + k, Channels::kLuminance, 0) * share));
+      if (by_stops) out.photos.push_back(weights[k] > 0 ? static_cast<float>(photo * share) : 0.0f);
+      out.weights.push_back(weights[k]);
+      is_weighed |= weights[k] < 1;
+    }
     ++taken;
   }
+  if (!is_weighed) out.weights.clear();
   return out;
 }
 
@@ -67,7 +69,7 @@ Bake bake(const Subject& subject, const BakeOptions& options, const GoesOn& goes
   if (options.is_exact) return bake_with(subject, exact_basis(subject.to_lights), options, goes_on);
   std::vector<Choice> choices;
   std::size_t chosen = 0;
-  const Sampled sampled = sampled_of(subject, options.seed);
+  const Sampled sampled = sampled_of(subject, options.seed, options.by_stops);
   if (options.lobes > 0) {
     choices = {choose_basis(sampled, options.lobes)};
   } else {

@@ -70,6 +70,7 @@ class Search {
                                                      static_cast<Eigen::Index>(sampled.to_lights.size()),
                                                      static_cast<Eigen::Index>(sampled.texels()))
                        .cast<double>()) {
+    if (sampled.weights.size() == sampled.residuals.size() && !sampled.weights.empty()) trust(sampled);
     if (sampled.photos.size() != sampled.residuals.size()) return;
     photos_ = Eigen::Map<const Eigen::MatrixXf>(sampled.photos.data(), residuals_.rows(), residuals_.cols())
                   .cast<double>()
@@ -110,7 +111,7 @@ class Search {
     const Eigen::LLT<Matrix> factor(system);
     const Matrix inverse = factor.solve(Matrix::Identity(lights, lights));
     const Matrix left = inverse.diagonal().cwiseInverse().asDiagonal() * (inverse * residuals_);
-    const double mean = left.squaredNorm() / static_cast<double>(std::max<Eigen::Index>(left.size(), 1));
+    const double mean = mean_of(left.array().square());
     if (!std::isfinite(mean)) return {};
     return {std::sqrt(mean), stops(left), 1 - inverse.trace() / static_cast<double>(std::max<Eigen::Index>(lights, 1))};
   }
@@ -118,19 +119,43 @@ class Search {
   double stops(const Matrix& left) const {
     if (photos_.size() == 0) return 1;
     const auto predicted = (photos_ - left).array().max(0) + noise_;
-    const double mean = (predicted / (photos_.array() + noise_)).log().square().mean();
+    const double mean = mean_of((predicted / (photos_.array() + noise_)).log().square());
     return std::sqrt(mean) / std::numbers::ln2 + 1e-6;
   }
 
-  double plain() const {
-    return std::sqrt(residuals_.squaredNorm() / static_cast<double>(std::max<Eigen::Index>(residuals_.size(), 1)));
-  }
+  double plain() const { return std::sqrt(mean_of(residuals_.array().square())); }
 
  private:
+  template <class Squares>
+  double mean_of(const Squares& squares) const {
+    if (weights_.size() == 0) return squares.sum() / static_cast<double>(std::max<Eigen::Index>(squares.size(), 1));
+    return (weights_.array() * squares).sum() / std::max(weights_.sum(), 1e-12);
+  }
+
+  // What is not trusted is replaced by the mean of the texel's other lights, near ones first (one over the square of the
+  // distance), as far as it is not.
+  void trust(const Sampled& sampled) {
+    weights_ =
+        Eigen::Map<const Eigen::MatrixXf>(sampled.weights.data(), residuals_.rows(), residuals_.cols()).cast<double>();
+    Matrix nearness = Matrix::Zero(residuals_.rows(), residuals_.rows());
+    for (Eigen::Index i = 0; i < nearness.rows(); ++i)
+      for (Eigen::Index k = 0; k < nearness.rows(); ++k) {
+        const glm::dvec3 way =
+            sampled.to_lights[static_cast<std::size_t>(i)] - sampled.to_lights[static_cast<std::size_t>(k)];
+        if (i != k) nearness(i, k) = 1 / (glm::dot(way, way) + 1e-6);
+      }
+    const Matrix sums = nearness * weights_, means = nearness * weights_.cwiseProduct(residuals_);
+    for (Eigen::Index i = 0; i < residuals_.size(); ++i) {
+      const double w = weights_(i), around = sums(i) > 0 ? means(i) / sums(i) : 0;
+      residuals_(i) = w * (w > 0 ? residuals_(i) : 0) + (1 - w) * around;
+    }
+  }
+
   const Sampled& sampled_;
   std::vector<Scale> scales_;
   Matrix residuals_;  // lights x texels
   Matrix photos_;     // likewise, or empty
+  Matrix weights_;    // likewise
   double noise_ = 0;
 };
 

@@ -19,6 +19,9 @@ struct Sampled {
   std::vector<float> residuals;
   // What was photographed, like residuals: then errors count in stops, too. Empty: only as light.
   std::vector<float> photos{};
+  // How far each residual is trusted, [0, 1], like residuals; empty: 1. One that is trusted less counts less, and its place
+  // is taken by what the texel's lights around it say: it may not decide what lobes have to explain.
+  std::vector<float> weights{};
   std::size_t texels() const { return to_lights.empty() ? 0 : residuals.size() / to_lights.size(); }
 };
 

@@ -1,6 +1,7 @@
 #include "realis/weight/foreign.h"
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <numeric>
 
@@ -16,11 +17,12 @@ constexpr std::size_t kNear = 5,
                       kFewest = 4;      // lights that a prediction takes; fewer lights than kFewest predict nothing
 constexpr double kLeastReceived = 0.3;  // cosine that a residual is divided by at least
 constexpr double kDarkest = 0.25;       // of a prediction: what is darker is a shadow
-const double kMirror = std::cos(25 * std::numbers::pi / 180);
+constexpr double kColored = 0.2;        // of what a texel usually shows: what is darker has no color to speak of
+constexpr double kGrazing = 4;          // times the limits: an object even where light grazes or does not reach
+constexpr double kWeak = 0.3;           // of the limits: what is off that much belongs to an object that it touches
+const double kMirror = std::cos(30 * std::numbers::pi / 180);
 
-constexpr double kWeak = 0.3;  // of the limits: what is off that much belongs to an object that it touches
-
-enum : std::uint8_t { kUsual = 0, kSlightlyOff = 1, kOff = 2, kHighlight = 3, kSeen = 4 };
+enum : std::uint8_t { kUsual = 0, kSlightlyOff = 1, kOff = 2, kSeen = 3 };
 
 // Of each light the nearest others, nearest first.
 std::vector<std::vector<std::size_t>> neighbours_of(const Samples& s) {
@@ -42,49 +44,95 @@ std::vector<std::vector<std::size_t>> neighbours_of(const Samples& s) {
   return out;
 }
 
+// Red and blue over luminance.
+std::array<double, 2> chroma_of(const Color& c) {
+  const double y = luminance(c);
+  return {static_cast<double>(c[0]) / y, static_cast<double>(c[2]) / y};
+}
+
+struct Usual {
+  double light = 0;          // of the photographs where the texel is lit, over what is received: the median
+  double low = 0, high = 0;  // e where the texel is lit: the quarters
+  double deviation = 0;      // of e from its neighbours'
+  std::array<double, 2> chroma{}, chroma_deviation{};
+};
+
+double deviation_of(std::vector<double>& values, double middle) {
+  for (double& x : values) x = std::abs(x - middle);
+  return 1.4826 * quantile(values, 0.5);
+}
+
 // Which samples of a texel are off.
 void mark_texel(const Samples& s, const std::vector<std::vector<std::size_t>>& neighbours,
                 const ForeignSettings& settings, std::size_t t, std::uint8_t* marks) {
   const std::size_t lights = s.lights();
-  thread_local std::vector<double> e, received, difference, some;
-  e.resize(lights), received.resize(lights), difference.resize(lights), some.clear();
-  for (std::size_t l = 0; l < lights; ++l) {
-    const std::size_t at = t * lights + l;
-    const double cosine = s.cosine.empty() ? 1 : static_cast<double>(s.cosine[at]);
-    received[l] = std::max(cosine, kLeastReceived) * s.irradiance_of(l);
-    e[l] = (luminance(s.photo[at]) - luminance(s.render[at])) / received[l];
-    if (cosine > kLeastReceived) some.push_back(luminance(s.photo[at]) / received[l]);
-    if (!std::isfinite(e[l])) e[l] = 0;
-  }
-  std::erase_if(some, [](double x) { return !std::isfinite(x); });
-  const double usual = std::max(quantile(some, 0.5), 0.0);
-  std::vector<double> predicted(lights);
-  for (std::size_t l = 0; l < lights; ++l) {
+  thread_local std::vector<double> e, received, some;
+  e.resize(lights), received.resize(lights);
+  const auto cosine_of = [&](std::size_t l) {
+    return s.cosine.empty() ? 1 : static_cast<double>(s.cosine[t * lights + l]);
+  };
+  // Numbers of those lights that reach the texel.
+  const auto quantile_of = [&](double share, const auto& number) {
     some.clear();
-    for (const std::size_t k : neighbours[l]) some.push_back(e[k]);
-    predicted[l] = quantile(some, 0.5);
-    difference[l] = e[l] - predicted[l];
-  }
-  some.assign(difference.begin(), difference.end());
-  for (double& x : some) x = std::abs(x);
-  const double deviation = settings.deviations * 1.4826 * quantile(some, 0.5);
-  // How far a sample is off, over what it takes: as a residual, and as light, so that grazing light counts for little.
-  const auto excess = [&](std::size_t l) {
-    const double d = std::abs(difference[l]);
-    const double most = std::max(deviation, settings.share * usual * s.irradiance_of(l) / received[l]);
-    return most > 0 ? d / most : d > 0 ? 2.0 : 0.0;
+    for (std::size_t l = 0; l < lights; ++l)
+      if (cosine_of(l) > kLeastReceived)
+        if (const double x = number(l); std::isfinite(x)) some.push_back(x);
+    return quantile(some, share);
   };
   for (std::size_t l = 0; l < lights; ++l) {
-    const double off = excess(l);
-    if (!(off > kWeak)) continue;
     const std::size_t at = t * lights + l;
-    const double expected = luminance(s.render[at]) + predicted[l] * received[l];
-    if (difference[l] < 0 && luminance(s.photo[at]) < kDarkest * expected) continue;
-    // Grazing light shows what renders are worst at: alone it is no sign of an object.
-    const bool is_grazing = received[l] <= kLeastReceived * s.irradiance_of(l);
-    marks[l] = off <= 1 || is_grazing                                ? kSlightlyOff
-               : difference[l] > 0 && half_cosine(s, t, l) > kMirror ? kHighlight
-                                                                     : kOff;
+    received[l] = std::max(cosine_of(l), kLeastReceived) * s.irradiance_of(l);
+    e[l] = (luminance(s.photo[at]) - luminance(s.render[at])) / received[l];
+    if (!std::isfinite(e[l])) e[l] = 0;
+  }
+  const auto shown = [&](std::size_t l) { return luminance(s.photo[t * lights + l]) / received[l]; };
+  Usual usual;
+  const double brightest = quantile_of(0.9, shown);
+  const auto bright = [&](std::size_t l) {
+    return shown(l) > kColored * brightest ? shown(l) : std::numeric_limits<double>::quiet_NaN();
+  };
+  usual.light = std::max(quantile_of(0.5, bright), 0.0);
+  const auto is_colored = [&](std::size_t l) { return shown(l) > kColored * usual.light; };
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  const auto lit = [&](std::size_t l) { return is_colored(l) ? e[l] : none; };
+  usual.low = quantile_of(0.25, lit), usual.high = quantile_of(0.75, lit);
+  some.clear();
+  for (std::size_t l = 0; l < lights; ++l) {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const std::size_t k : neighbours[l]) nearest = std::min(nearest, std::abs(e[l] - e[k]));
+    some.push_back(nearest);
+  }
+  usual.deviation = 1.4826 * quantile(some, 0.5);
+  for (std::size_t c = 0; c < 2; ++c) {
+    const auto chroma = [&](std::size_t l) { return is_colored(l) ? chroma_of(s.photo[t * lights + l])[c] : none; };
+    usual.chroma[c] = quantile_of(0.5, chroma);
+    usual.chroma_deviation[c] = deviation_of(some, usual.chroma[c]);
+  }
+  for (std::size_t l = 0; l < lights; ++l) {
+    const std::size_t at = t * lights + l;
+    if (!std::isfinite(luminance(s.photo[at]))) continue;
+    // Between what neighbouring lights and the others show, anything may be: each of them may be in a shadow.
+    double low = std::min(usual.low, 0.0), high = std::max(usual.high, 0.0);
+    for (const std::size_t k : neighbours[l])
+      if (cosine_of(k) > kLeastReceived) low = std::min(low, e[k]), high = std::max(high, e[k]);
+    const double difference = e[l] > high ? e[l] - high : e[l] < low ? e[l] - low : 0;
+    const double most = std::max(settings.deviations * usual.deviation,
+                                 settings.share * usual.light * s.irradiance_of(l) / received[l]);
+    const bool is_shadow = luminance(s.photo[at]) < kDarkest * (luminance(s.render[at]) + low * received[l]);
+    double off = most > 0 ? std::abs(difference) / most : difference != 0 ? 2 * kGrazing : 0;
+    if (difference < 0 && is_shadow) off = 0;
+    // About the mirror direction renders are off by highlights: alone that is no sign of an object.
+    if (half_cosine(s, t, l) > kMirror) off = std::min(off, 1.0);
+    const bool reaches = cosine_of(l) > kLeastReceived;
+    if (is_colored(l) && reaches && usual.light > 0) {
+      const std::array<double, 2> chroma = chroma_of(s.photo[at]);
+      for (std::size_t c = 0; c < 2; ++c) {
+        const double way = chroma[c] - usual.chroma[c], to_white = 1 - usual.chroma[c];
+        if (way * to_white > 0 && std::abs(way) <= std::abs(to_white)) continue;  // what a highlight does
+        off = std::max(off, std::abs(way) / std::max(settings.share, settings.deviations * usual.chroma_deviation[c]));
+      }
+    }
+    if (off > kWeak) marks[l] = off > (reaches ? 1 : kGrazing) ? kOff : kSlightlyOff;
   }
 }
 
@@ -114,18 +162,18 @@ Weights foreign(const Samples& s, const ForeignSettings& settings) {
   tbb::parallel_for(std::size_t{0}, lights, [&](std::size_t l) {
     std::vector<std::size_t> region;
     for (std::size_t first = 0; first < s.texels(); ++first) {
-      if (marks[first * lights + l] != kOff && marks[first * lights + l] != kHighlight) continue;
+      if (marks[first * lights + l] != kOff) continue;
       region.assign(1, first);
-      std::size_t strong = 1, highlights = marks[first * lights + l] == kHighlight;
+      std::size_t strong = 1;
       marks[first * lights + l] = kSeen;
       for (std::size_t i = 0; i < region.size(); ++i)
         around(region[i], [&](std::size_t n) {
           std::uint8_t& mark = marks[n * lights + l];
           if (mark == kUsual || mark == kSeen) return;
-          strong += mark != kSlightlyOff, highlights += mark == kHighlight, mark = kSeen;
+          strong += mark == kOff, mark = kSeen;
           region.push_back(n);
         });
-      if (static_cast<double>(strong) < settings.least || 2 * highlights > strong) continue;
+      if (static_cast<double>(strong) < settings.least) continue;
       for (const std::size_t t : region) around(t, [&](std::size_t n) { out[n * lights + l] = 0; });
     }
   });

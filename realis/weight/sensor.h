@@ -11,11 +11,13 @@ struct ClippedSettings {
 };
 Weights clipped(const Samples& s, const ClippedSettings& settings);
 
-// 0 where photograph and render are both nearly dark: the photo at most `level` times the light's brightest texels (99th
-// percentile), the render at most 4 times as much. There a sensor has lost what a small residual would be of. A cast shadow
-// that the render lacks is dark in the photo only, and stays: it is what the bake is for.
+// 0 where light was lost. A sensor that does not see less than some light [unit of the photo] says 0 for all of it: a
+// channel that is below that level in the photo weighs 0 if the render is below 1.5 times it, too, and 1 from 3 times
+// on. A shadow that the render lacks is dark in the photo only, and stays: it is what the bake is for. Without a level of
+// its own one is found, if a thousandth of the samples that the render lights is exactly 0: the least values above it.
+// A pixel that is exactly 0 under every light, among pixels of which half are not, is dead, and weighs 0.
 struct BlackSettings {
-  double level = 0.01;
+  double level = 0;  // 0: found
 };
 Weights black(const Samples& s, const BlackSettings& settings);
 

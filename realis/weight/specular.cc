@@ -60,14 +60,14 @@ Weights specular(const Samples& s, const SpecularSettings& settings) {
     }
   for (const double x : excess[kRings]) spread.push_back(std::abs(x));
   const double noise = 1.4826 * quantile(spread, 0.5), least = 0.01 * std::abs(quantile(shown, 0.5));
-  const double threshold = std::max({settings.significance * noise, least, 1e-12});
+  const double threshold = std::max({settings.significance * noise, least, 1e-12}),
+               tolerance = std::max({0.5 * noise, least, 1e-12});
   std::array<double, kRings> rise{};
   for (std::size_t r = 0; r < kRings; ++r) rise[r] = quantile(excess[r], 0.5);
   const double peak = *std::max_element(rise.begin(), rise.begin() + 3);
   if (!(peak > threshold)) return out;
   std::size_t reach = 0;
-  while (reach < kRings && (reach < 3 || rise[reach] > std::max(0.02 * peak, 0.0))) ++reach;
-  const double tolerance = std::max(0.02 * peak, noise);
+  while (reach < kRings && (reach < 3 || rise[reach] > 0.5 * tolerance)) ++reach;
   tbb::parallel_for(std::size_t{0}, s.samples(), [&](std::size_t at) {
     if (ring[at] >= reach) return;
     const double x = std::max(static_cast<double>(e[at]) - level[at / lights], 0.0) / tolerance;

@@ -198,6 +198,50 @@ TEST(MakeCapture, BlackIsLostAndClippedPixelsAreFlawed) {
   EXPECT_GT(black, 500u);
 }
 
+TEST(MakeCapture, AnObjectIsInOnePhotographAsWideAsAsked) {
+  const TemporaryFolder folder;
+  CaptureOptions options = small(folder / "c");
+  options.faults.objects = {{1, 0.5}, {3, 0.25, 0.75, 0.5, 2}};
+  const Made made = make(options);
+  for (const std::size_t l : {0u, 2u}) EXPECT_EQ(made.photos[l].rgb, made.truths[l].rgb) << l;
+  const auto check = [&](std::size_t l, double radius, double x0, double y0, float red) {
+    for (int y = 0; y < 64; ++y)
+      for (int x = 0; x < 96; ++x) {
+        const bool is_inside = std::hypot(x + 0.5 - x0, y + 0.5 - y0) < radius;
+        EXPECT_EQ(made.photos[l].at(x, y)[0], is_inside ? red : made.truths[l].at(x, y)[0]) << x << ", " << y;
+      }
+  };
+  check(1, 16, 0.35 * 96, 0.35 * 64, 0.2f);  // half of 64 wide, left of the middle and above it
+  check(3, 8, 72, 32, 0.4f);
+  EXPECT_THAT(made.truth, HasSubstr("\"l1\": 0.5"));
+}
+
+TEST(MakeCapture, LightBelowTheDarkLevelAndDeadPixelsAreZero) {
+  const TemporaryFolder folder;
+  CaptureOptions options = small(folder / "c");
+  options.faults.dark = 0.05;
+  options.faults.dead = 0.1;
+  const Made made = make(options);
+  std::size_t dead = 0, lit = 0;
+  for (int y = 0; y < 64; ++y)
+    for (int x = 0; x < 96; ++x) {
+      bool is_dead = false, is_lit = false;
+      for (std::size_t l = 0; l < 4; ++l) {
+        const float photo = made.photos[l].at(x, y)[1], truth = made.truths[l].at(x, y)[1];
+        if (truth >= 0.05f) is_lit = true, is_dead |= photo == 0;
+        else EXPECT_EQ(photo, 0) << x << ", " << y;
+      }
+      for (std::size_t l = 0; l < 4; ++l) {
+        const float truth = made.truths[l].at(x, y)[1];
+        if (is_lit && truth >= 0.05f) {
+          EXPECT_EQ(made.photos[l].at(x, y)[1], is_dead ? 0 : truth) << "dead under every light, or under none";
+        }
+      }
+      dead += is_dead, lit += is_lit;
+    }
+  EXPECT_NEAR(static_cast<double>(dead) / static_cast<double>(lit), 0.1, 0.03);  // of some 3000
+}
+
 TEST(MakeCapture, ACurveThatNobodyStatesIsInTheNumbers) {
   const TemporaryFolder folder;
   CaptureOptions options = small(folder / "c");

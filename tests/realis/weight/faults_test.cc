@@ -125,8 +125,7 @@ TEST_F(Weights, OfSpecularResidueTakeAwayAHighlight) {
   for (const double residue : {0.05, 0.5}) {
     faults.residue = residue;
     const std::string name = "residue " + std::to_string(residue);
-    EXPECT_GT(removed("specular", name.c_str(), subject_of("residue", faults)), 0.65)
-        << residue;  // the aim is 0.8; few lights are left there
+    EXPECT_GT(removed("specular", name.c_str(), subject_of("residue", faults)), 0.8) << residue;
   }
 }
 
@@ -140,6 +139,12 @@ TEST_F(Weights, OfTheSensorTakeAwayClippingAndLostBlack) {
   weight::Settings settings;
   settings.clipped.clip = 0.0999;
   EXPECT_GT(removed("clipped", "clipped at 0.1", clipped, settings), 0.8);
+}
+
+TEST_F(Weights, OfTheSensorTakeAwayDeadPixels) {
+  CaptureFaults faults;
+  faults.dead = 0.01;
+  EXPECT_GT(removed("black", "1 % of dead pixels", subject_of("dead", faults)), 0.8);
 }
 
 TEST_F(Weights, CostACleanCaptureNothing) {

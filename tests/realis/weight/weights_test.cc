@@ -133,8 +133,27 @@ TEST(SensorWeights, LeaveShadowsThatTheRenderLacks) {
   held.photo[2] = held.render[2] = {0.001f, 0, 0};  // dark in both
   held.photo[4] = {std::numeric_limits<float>::quiet_NaN(), 0, 0};
   held.photo[6] = {0.1f, 3, 0.1f};
-  EXPECT_EQ(black(held.samples(), {}), (Weights{1, 1, 0, 1, 1, 1, 1, 1}));
+  EXPECT_EQ(black(held.samples(), {.level = 0.01}), (Weights{1, 1, 0, 1, 1, 1, 1, 1}));
   EXPECT_EQ(clipped(held.samples(), {.clip = 2}), (Weights{1, 1, 1, 1, 0, 1, 0, 1}));
+}
+
+// 5 x 5 texels under 3 lights.
+TEST(SensorWeights, FindADeadPixelAndTheLightThatIsLost) {
+  Held held(5, 5, 3, 1.0f);
+  const std::size_t middle = 3 * 12;
+  for (std::size_t l = 0; l < 3; ++l) held.photo[middle + l] = {0, 0, 0};
+  Weights w = black(held.samples(), {});
+  for (std::size_t i = 0; i < w.size(); ++i) EXPECT_EQ(w[i], i >= middle && i < middle + 3 ? 0 : 1) << i;
+  std::fill(held.photo.begin(), held.photo.end(), Color{0, 0, 0});
+  for (const float x : black(held.samples(), {})) EXPECT_EQ(x, 1) << "a subject in the dark is no dead pixel";
+  // Below 0.02 the sensor says 0: what the render has there, too, is not known; what it has lit is a shadow.
+  for (std::size_t i = 0; i < held.photo.size(); ++i) {
+    const float x = 0.001f * static_cast<float>(i + 1), seen = x < 0.02f ? 0 : x;
+    held.render[i] = {x, x, x}, held.photo[i] = {seen, seen, seen};
+  }
+  held.photo[70] = {0, 0, 0};
+  w = black(held.samples(), {});
+  for (std::size_t i = 0; i < w.size(); ++i) EXPECT_EQ(w[i], i < 19 ? 0 : 1) << i;
 }
 
 // A block of 4 x 4 that one of 12 lights sees brighter; smaller ones, highlights and cast shadows are no objects.
@@ -155,6 +174,18 @@ TEST(ForeignWeight, FindsRegionsThatAreNeitherHighlightsNorShadows) {
   EXPECT_EQ(zeros(2, 2, false), 0);
   EXPECT_EQ(zeros(4, 2, true), 0);
   EXPECT_EQ(zeros(4, 0, false), 0);
+}
+// As bright as what it hides, and of another color.
+TEST(ForeignWeight, FindsAnObjectByItsColor) {
+  Held held(16, 16, 12, 0);
+  for (std::size_t at = 0; at < held.photo.size(); ++at) {
+    const float lit = held.cosine[at];
+    held.photo[at] = held.render[at] = {lit, lit, lit};
+    const int x = static_cast<int>(at / 12) % 16, y = static_cast<int>(at / 12) / 16;
+    if (at % 12 == 7 && x >= 5 && x < 9 && y >= 5 && y < 9) held.photo[at] = {1.6f * lit, 0.88f * lit, 0.4f * lit};
+  }
+  const Weights w = foreign(held.samples(), {});
+  EXPECT_EQ(std::count(w.begin(), w.end(), 0.0f), 36);
 }
 
 }  // namespace
