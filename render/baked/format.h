@@ -16,7 +16,8 @@ inline constexpr std::array<std::string_view, 2> kChannels{"luminance", "rgb"};
 inline constexpr std::array<std::string_view, 2> kStorages{"8 bit", "float"};
 inline constexpr std::array<std::string_view, 2> kSpaces{"image", "texture"};
 inline constexpr const char *kBakeFile = "bake.json", *kFloats = "coefficients.exr", *kBakeType = "realis bake",
-                            *kSurfaceFile = "surface.json";
+                            *kSurfaceFile = "surface.json", *kNormals = "normal.png", *kColors = "base_color.png",
+                            *kMaterial = "surface.material.json";
 
 // The picture of three planes from 3 * index on: "lobes_000.png", "coefficients_000.png".
 std::string numbered(const char* name, std::size_t index);

@@ -84,15 +84,6 @@ void unpack_bytes(const Planes& planes, const std::vector<double>& multipliers, 
 
 }  // namespace
 
-Access from_files() {
-  return {[](const std::filesystem::path& file, std::size_t limit) { return files::read_whole(file, limit); },
-          [](const std::filesystem::path& file, std::size_t most) {
-            return image::read_texels(file, {.layer = {}, .most_texels = most});
-          },
-          [](const std::filesystem::path& file, std::size_t most) { return image::read_layers(file, most); },
-          [](const std::filesystem::path& file) { return std::filesystem::exists(file); }};
-}
-
 Header parse_header(std::string_view text, const std::string& source) {
   const json::Value value = json::parse(text, source);
   const json::Fields fields(source, value, kBakeSection, "");

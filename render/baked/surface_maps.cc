@@ -4,12 +4,10 @@
 #include <array>
 #include <cmath>
 
-#include <nlohmann/json.hpp>
-
+#include "render/baked/format.h"
 #include "render/files/files.h"
 #include "render/image/read.h"
 #include "render/image/tone_curve.h"
-#include "render/image/write.h"
 #include "render/json/fields.h"
 #include "render/material/material_file.h"
 
@@ -19,8 +17,6 @@ namespace {
 using json::Form;
 using json::Key;
 
-constexpr const char *kNormals = "normal.png", *kColors = "base_color.png", *kNumbers = "surface.json",
-                     *kMaterial = "surface.material.json";
 constexpr std::size_t kMostBytes = 1 << 16;
 constexpr std::array kKeys{
     Key{.name = "scale",
@@ -37,25 +33,8 @@ constexpr std::array kKeys{
 };
 constexpr json::Section kSection{"surface", "What a bake's renders were made of.", kKeys};
 
-struct Thin {
-  image::DisplayPicture normals, colors;
-  double scale = 0;
-};
-
-Thin thin_of(const Surface& surface) {
-  Thin out{{surface.normals.width, surface.normals.height}, {surface.base_colors.width, surface.base_colors.height}, 0};
-  for (const float c : surface.base_colors.rgb) out.scale = std::max(out.scale, static_cast<double>(c));
-  for (std::size_t i = 0; i < surface.normals.rgb.size(); ++i) {
-    const double n = std::clamp(static_cast<double>(surface.normals.rgb[i]), -1.0, 1.0);
-    out.normals.rgb[i] = static_cast<std::uint8_t>(128 + std::lround(127 * n));
-    const double c = out.scale > 0 ? static_cast<double>(surface.base_colors.rgb[i]) / out.scale : 0;
-    out.colors.rgb[i] = image::srgb_encode8(static_cast<float>(std::max(c, 0.0)));
-  }
-  return out;
-}
-
 // The two pictures back, into `surface`.
-void unpack(const Thin& thin, Surface& surface) {
+void unpack(const ThinSurface& thin, Surface& surface) {
   surface.normals = image::Picture(thin.normals.width, thin.normals.height);
   surface.base_colors = image::Picture(thin.colors.width, thin.colors.height);
   for (std::size_t pixel = 0; pixel < surface.normals.rgb.size() / 3; ++pixel) {
@@ -87,24 +66,36 @@ image::DisplayPicture read_bytes(const std::filesystem::path& file, const Access
 
 }  // namespace
 
-Surface thin(const Surface& surface) {
-  Surface out = surface;
-  unpack(thin_of(surface), out);
+ThinSurface packed(const Surface& surface) {
+  ThinSurface out{
+      {surface.normals.width, surface.normals.height}, {surface.base_colors.width, surface.base_colors.height}, 0};
+  for (const float c : surface.base_colors.rgb) out.scale = std::max(out.scale, static_cast<double>(c));
+  for (std::size_t i = 0; i < surface.normals.rgb.size(); ++i) {
+    const double n = std::clamp(static_cast<double>(surface.normals.rgb[i]), -1.0, 1.0);
+    out.normals.rgb[i] = static_cast<std::uint8_t>(128 + std::lround(127 * n));
+    const double c = out.scale > 0 ? static_cast<double>(surface.base_colors.rgb[i]) / out.scale : 0;
+    out.colors.rgb[i] = image::srgb_encode8(static_cast<float>(std::max(c, 0.0)));
+  }
   return out;
 }
 
-void write_surface(const std::filesystem::path& folder, const Surface& surface) {
-  const Thin pictures = thin_of(surface);
-  image::write_png(folder / kNormals, pictures.normals);
-  image::write_png(folder / kColors, pictures.colors);
-  material::write_material(folder / kMaterial, {"what a Realis bake was baked over", surface.material});
-  const nlohmann::ordered_json numbers{{"scale", pictures.scale}, {"exposure", surface.exposure}};
-  files::write_whole(folder / kNumbers, numbers.dump(1) + "\n");
+Surface thin(const Surface& surface) {
+  constexpr int kMostRounds = 16;
+  Surface out = surface;
+  ThinSurface stored = packed(surface);
+  for (int round = 0; round < kMostRounds; ++round) {
+    unpack(stored, out);
+    // A normal that was made unit may round to other bytes than those it came from.
+    ThinSurface again = packed(out);
+    if (again.normals.rgb == stored.normals.rgb && again.colors.rgb == stored.colors.rgb) break;
+    stored = std::move(again);
+  }
+  return out;
 }
 
 Surface read_surface(const std::filesystem::path& folder, const Access& access) {
-  const std::string source = (folder / kNumbers).string();
-  const json::Value value = json::parse(access.bytes(folder / kNumbers, kMostBytes), source);
+  const std::string source = (folder / kSurfaceFile).string();
+  const json::Value value = json::parse(access.bytes(folder / kSurfaceFile, kMostBytes), source);
   const json::Fields fields(source, value, kSection, "");
   Surface out;
   out.exposure = fields.number("exposure");
@@ -114,8 +105,8 @@ Surface read_surface(const std::filesystem::path& folder, const Access& access) 
   if (callisto == nullptr)
     throw files::InputError(file.string() + ": is not of the model callisto, as a bake's surface is");
   out.material = *callisto;
-  const Thin pictures{read_bytes(folder / kNormals, access), read_bytes(folder / kColors, access),
-                      fields.number("scale")};
+  const ThinSurface pictures{read_bytes(folder / kNormals, access), read_bytes(folder / kColors, access),
+                             fields.number("scale")};
   if (pictures.normals.width != pictures.colors.width || pictures.normals.height != pictures.colors.height)
     throw files::InputError((folder / kColors).string() + ": is of another size than normal.png beside it");
   unpack(pictures, out);

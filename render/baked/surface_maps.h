@@ -23,6 +23,13 @@ struct Surface {
   double exposure = 1;  // photo over what the material returns of a unit light
 };
 
+// The surface's two pictures as they are stored.
+struct ThinSurface {
+  image::DisplayPicture normals, colors;
+  double scale = 0;  // base color that 255 stands for
+};
+ThinSurface packed(const Surface& surface);
+
 // The surface as 8 bits hold it. What is rendered from it is rendered again, to the bit, from what write_surface() wrote:
 // bake against that, and nothing is lost by the thinness of the copies.
 Surface thin(const Surface& surface);

@@ -8,6 +8,7 @@
 #include "render/files/files.h"
 #include "tests/fit/measured_files.h"
 #include "tests/fuzz/feed.h"
+#include "tests/fuzz/feed_bake.h"
 #include "tests/fuzz/feed_capture.h"
 #include "tests/olat/import/small_colmap.h"
 #include "tests/render/capture/small_capture.h"
@@ -43,6 +44,8 @@ std::vector<Seed> seeds() {
           {"ply", scene::test::small_binary_ply()},
           {"obj", scene::test::small_obj()},
           {"ies", scene::test::small_ies()},
+          {"bake", baked::test::small_bake(12, 8, "luminance", "8 bit")},
+          {"bake", baked::test::small_bake(3, 3, "rgb", "float")},
           {"capture", capture::test::small_texts()},
           {"lights_csv", "# linear\nfile,lx,ly,lz,ir,ig,ib\na.png,0,0.6,0.8,1,2,3\n"},
           {"tev", small_packets()},

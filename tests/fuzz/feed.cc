@@ -9,6 +9,7 @@
 #include "fit/measured/rgl.h"
 #include "render/files/files.h"
 #include "tests/fit/measured_files.h"
+#include "tests/fuzz/feed_bake.h"
 #include "tests/fuzz/feed_capture.h"
 #include "tests/fuzz/feed_exr.h"
 #include "tests/fuzz/feed_olat.h"
@@ -30,6 +31,7 @@ bool usable(const Rgb& f) { return f.r >= 0 && f.g >= 0 && f.b >= 0 && std::isfi
 bool feed(std::string_view format, std::string_view bytes) {
   if (format == "table") return feed_table(bytes);
   if (format == "exr") return image::test::feed_exr(bytes);
+  if (format == "bake") return baked::test::feed_bake(bytes);
   for (const std::string_view of_captures : {"capture", "lights_csv", "lp", "dome", "colmap", "colmap_bin"})
     if (format == of_captures) return capture::test::feed_capture(format, bytes);
   if (format == "tev" || format == "state") return olat_pair::test::feed_olat(format, bytes);

@@ -12,7 +12,7 @@ inline void hold(bool promise, const char* text) {
 
 // Parses bytes as one format ("merl", "mbsdf", "rgl", "csv") and uses whatever comes out of it. True if it was
 // accepted; throws std::logic_error if a promise of measured.h does not hold. MERL has the small size of the corpus.
-// The format "table" goes to feed_table, "exr" to feed_exr, and those of scenes to feed_scene.
+// The format "table" goes to feed_table, "exr" to feed_exr, "bake" to feed_bake, and those of scenes to feed_scene.
 bool feed(std::string_view format, std::string_view bytes);
 
 // Evaluates bytes as a table of inputs (brdf/eval/rows.h) of an evaluator with two forms, colors and directions. True if

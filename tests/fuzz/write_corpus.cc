@@ -4,6 +4,7 @@
 #include "olat/tev/packet.h"
 #include "render/files/files.h"
 #include "tests/fit/measured_files.h"
+#include "tests/fuzz/feed_bake.h"
 #include "tests/fuzz/feed_capture.h"
 #include "tests/olat/import/small_colmap.h"
 #include "tests/render/capture/small_capture.h"
@@ -40,6 +41,10 @@ int main(int count, char** arguments) {
   files::write_whole(folder / "obj" / "square.obj", scene::test::small_obj());
   files::write_whole(folder / "ies" / "quadrant.ies", scene::test::small_ies());
   files::write_whole(folder / "ies" / "side.ies", scene::test::small_ies("90 180 270"));
+  files::write_whole(folder / "bake" / "dominant.txt", baked::test::small_bake(12, 8, "luminance", "8 bit"));
+  files::write_whole(folder / "bake" / "rgb.txt", baked::test::small_bake(3, 3, "rgb", "8 bit"));
+  files::write_whole(folder / "bake" / "float.txt", baked::test::small_bake(2, 2, "rgb", "float"));
+  files::write_whole(folder / "bake" / "empty.txt", baked::test::small_bake(0, 0, "luminance", "8 bit"));
   const std::string part(capture::test::kPart);
   files::write_whole(folder / "capture" / "small.txt", capture::test::small_texts());
   files::write_whole(folder / "lights_csv" / "small.csv",
