@@ -70,6 +70,25 @@ void put(Bytes& out, const scene::Material& m) {
   for (const auto& binding : m.bindings) out.put(binding.parameter), out.put(binding.texture);
   out.put(m.normal_map), out.put(m.normal_strength), out.put(m.diffuse_normal_map), out.put(m.opacity);
   out.put(m.opacity_cutoff), out.put(m.emission), out.put(m.emission_map), out.put(m.two_sided);
+  if (!m.residual) return;  // others keep the digests that they had
+  const scene::Material::BakedResidual& r = *m.residual;
+  out.put(r.bake), out.put(r.strength), out.put(r.jitter), out.put(r.fade.has_value());
+  if (r.fade)
+    for (const brdf::Interval& between : {r.fade->base_color, r.fade->roughness, r.fade->normal})
+      out.put(between.low), out.put(between.high);
+}
+
+void put(Bytes& out, const baked::Residual& bake) {
+  out.put(bake.width), out.put(bake.height), out.put(bake.floor), out.put(bake.groups);
+  for (std::size_t k = 0; k < bake.lobe_count; ++k) {
+    const auto& lobe = bake.lobes.lobes[k];
+    out.put(lobe.x), out.put(lobe.y), out.put(lobe.z), out.put(lobe.reach);
+    for (const float scale : lobe.scale) out.put(scale);
+  }
+  out.put_all(bake.luminance), out.put_all(bake.rgb);
+  if (!bake.surface) return;
+  out.put_all(bake.surface->normals.rgb), out.put_all(bake.surface->base_colors.rgb);
+  out.put(bake.surface->material.roughness);
 }
 
 void put(Bytes& out, const scene::Light& light) {
@@ -109,6 +128,7 @@ std::string digest_of(const scene::Scene& scene, std::size_t camera) {
     out.put(image.texels.width), out.put(image.texels.height), out.put(image.texels.channels);
     out.put_all(image.texels.bytes), out.put_all(image.texels.floats);
   }
+  for (const baked::Residual& bake : scene.bakes) put(out, bake);
   for (const scene::Mesh& mesh : scene.meshes) {
     out.put(mesh.is_sphere), out.put_all(mesh.positions), out.put_all(mesh.normals), out.put_all(mesh.uvs);
     out.put_all(mesh.tangents), out.put_all(mesh.triangles);

@@ -131,6 +131,8 @@ void materials(const scene::Scene& scene, Plan& plan, Facts& facts) {
     if (const std::string bumps = bumps_of(scene, material, own); !bumps.empty())
       facts.on(Effect::kProxima, who + bumps);
     if (own.has_dual_normals) facts.on(Effect::kDualNormals, who + "diffuse_normal_map");
+    if (material.residual)
+      facts.on(Effect::kRealis, who + "bake \"" + scene.bakes[material.residual->bake].name + "\"");
     if (own.is_cut_out) facts.on(Effect::kCutOuts, who + "opacity");
     if (own.emits) facts.on(Effect::kEmission, who + "emission");
   }
@@ -191,6 +193,8 @@ std::string nothing(Effect effect) {
       return "no map of normals below a diffuse";
     case Effect::kDualNormals:
       return "no material has a diffuse_normal_map";
+    case Effect::kRealis:
+      return "no material has a bake";
     case Effect::kCutOuts:
       return "no material has an opacity";
     case Effect::kEmission:

@@ -132,6 +132,9 @@ scene::Scene without(const scene::Scene& original, Effect effect) {
     case Effect::kDualNormals:
       for (scene::Material& material : scene.materials) material.diffuse_normal_map.reset();
       break;
+    case Effect::kRealis:
+      for (scene::Material& material : scene.materials) material.residual.reset();
+      break;
     case Effect::kCutOuts:
       for (scene::Material& material : scene.materials) material.opacity.reset();
       break;

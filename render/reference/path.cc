@@ -114,6 +114,10 @@ glm::vec3 follow(const world::World& world, ray::Ray ray, sampling::Samples& sam
     }
     if (point.is_black() || bounces >= options.max_bounces) break;
 
+    const auto facing_light = [&]() -> const glm::vec3& {
+      if constexpr ((kParts & kTextures) != 0) return point.light_normal();
+      else return point.shading_normal;
+    };
     const glm::vec3 position = ray::beside(point.position, point.normal);
     const auto next_if = [&](bool is_read) {
       if (is_read) return samples.next();
@@ -125,7 +129,7 @@ glm::vec3 follow(const world::World& world, ray::Ray ray, sampling::Samples& sam
       samples.skip();  // the numbers after it are those of a plan with lights
     } else {
       const glm::vec2 u = next_if(options.reads_light_point);
-      const light::Sample light = world.lights.sample(point.position, point.shading_normal, choice.x, u);
+      const light::Sample light = world.lights.sample(point.position, facing_light(), choice.x, u);
       if (light.is_some()) {
         surface::Value f;
         if ((kParts & kFound) != 0 && light.pdf > 0) f = point.eval(light.to_light);
@@ -156,7 +160,7 @@ glm::vec3 follow(const world::World& world, ray::Ray ray, sampling::Samples& sam
       throughput /= survival;
     }
     if (!(largest(throughput) > 0)) break;
-    if constexpr ((kParts & kFound) != 0) pdf = next.pdf, from = point.position, from_normal = point.shading_normal;
+    if constexpr ((kParts & kFound) != 0) pdf = next.pdf, from = point.position, from_normal = facing_light();
     ray = {position, 0, next.to_light, ray::kFar};
   }
   return sum.radiance;
@@ -184,20 +188,20 @@ unsigned path_parts(const plan::Plan& plan, bool has_layers) {
   if (any(Effect::kAreaLights, Effect::kEnvironmentPicture)) parts |= kFound;
   if (any(Effect::kEnvironment)) parts |= kEnvironment;
   if (any(Effect::kEmission)) parts |= kEmission;
-  if (any(Effect::kTextures, Effect::kNormalMaps, Effect::kDualNormals)) parts |= kTextures;
+  if (any(Effect::kTextures, Effect::kNormalMaps, Effect::kDualNormals, Effect::kRealis)) parts |= kTextures;
   if (has_layers) parts |= kLayers;
   return whole(parts);
 }
 
 PathOptions path_options(const world::World& world, int max_bounces) {
   const auto chooses_lobe = [](const scene::Material& material) {
-    return std::visit(
-        [](const auto& model) {
-          const brdf::Vec3<double> up{0.0, 0.0, 1.0};
-          const auto lobes = model.lobes(up);
-          return requires { lobes.light(up, 0.0, 0.0, 0.0); };
-        },
-        material.brdf);
+    return material.residual || std::visit(
+                                    [](const auto& model) {
+                                      const brdf::Vec3<double> up{0.0, 0.0, 1.0};
+                                      const auto lobes = model.lobes(up);
+                                      return requires { lobes.light(up, 0.0, 0.0, 0.0); };
+                                    },
+                                    material.brdf);
   };
   const auto& materials = world.scene.materials;
   return {max_bounces, world.lights.reads_choice() || std::any_of(materials.begin(), materials.end(), chooses_lobe),

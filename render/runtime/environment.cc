@@ -48,7 +48,7 @@ glm::vec3 by_rays(const Context& c, const surface::Point& point, std::size_t pix
 
 // Callisto by the maps: its diffuse as Lambert's (or Proxima's over bumps, as if light and view were less than 90 degrees
 // apart, where it is linear in the light's cosine), its lobes with Schlick's Fresnel, neither shaped nor shaded.
-glm::vec3 by_maps(const Context& c, const surface::Point& point) {
+glm::vec3 by_maps(const Context& c, const surface::Point& point, std::size_t pixel) {
   const C& m = *static_cast<const C*>(point.bound.model);
   const glm::vec3 rho(m.base_color.r, m.base_color.g, m.base_color.b);
   const glm::vec3 f0 = glm::mix(glm::vec3(0.08f * m.specular), rho, m.metallic);
@@ -73,7 +73,9 @@ glm::vec3 by_maps(const Context& c, const surface::Point& point) {
                 cosine = brdf::proxima_factor_cos(bumps, 1.0f, 1.0f) - even;
     diffuse = cosine * diffuse + even * c.maps.hemisphere(diffuse_normal);
   }
-  return rho * ((1 - m.metallic) * 0.31830989f) * diffuse + specular;
+  const glm::vec3 light = rho * ((1 - m.metallic) * 0.31830989f) * diffuse + specular;
+  if (point.bound.residual == nullptr) return light;
+  return glm::max(light + c.residuals.light(point, c.frame.hits[pixel].instance), glm::vec3(0));
 }
 
 constexpr int rays_of(EnvironmentLevel level) {
@@ -85,29 +87,30 @@ constexpr int rays_of(EnvironmentLevel level) {
 Pass environment_pass(const plan::Plan& plan, const Settings& settings) {
   const bool has_maps = settings.environment == EnvironmentLevel::kMaps;
   const int rays = rays_of(settings.environment);
-  Pass pass{
-      "environment",
-      has_maps ? "light of the environment by harmonics and filtered pictures (other models than Callisto: 16 rays)"
-               : "light of the environment by rays",
-      {Buffer::kSurfaces, Buffer::kTiles},
-      {Buffer::kRadiance},
-      [=](Context& c) {
-        if (!c.world.lights.environment()) return;  // every effect is forced, and there is none
-        for_tiles(c.frame, true, [&](Tile& tile) {
-          surface::Point point;
-          for (int y = tile.y; y < tile.y + tile.height; ++y)
-            for (int x = tile.x; x < tile.x + tile.width; ++x) {
-              const std::size_t pixel = c.frame.pixel(x, y);
-              if (!c.frame.cells[pixel].is_surface()) continue;
-              restore(c, pixel, point);
-              const bool is_callisto = point.material->is_callisto;
-              const glm::vec3 light = has_maps && is_callisto ? by_maps(c, point) : by_rays(c, point, pixel, rays);
-              for (std::size_t k = 0; k < 3; ++k)
-                c.frame.radiance.rgb[3 * pixel + k] +=
-                    light[static_cast<int>(k)] / static_cast<float>(c.settings.pixel_samples);
-            }
-        });
-      }};
+  Pass pass{"environment",
+            has_maps
+                ? "light of the environment by harmonics and filtered pictures (other models than Callisto: 16 rays)"
+                : "light of the environment by rays",
+            {Buffer::kSurfaces, Buffer::kTiles},
+            {Buffer::kRadiance},
+            [=](Context& c) {
+              if (!c.world.lights.environment()) return;  // every effect is forced, and there is none
+              for_tiles(c.frame, true, [&](Tile& tile) {
+                surface::Point point;
+                for (int y = tile.y; y < tile.y + tile.height; ++y)
+                  for (int x = tile.x; x < tile.x + tile.width; ++x) {
+                    const std::size_t pixel = c.frame.pixel(x, y);
+                    if (!c.frame.cells[pixel].is_surface()) continue;
+                    restore(c, pixel, point);
+                    const bool is_callisto = point.material->is_callisto;
+                    const glm::vec3 light =
+                        has_maps && is_callisto ? by_maps(c, point, pixel) : by_rays(c, point, pixel, rays);
+                    for (std::size_t k = 0; k < 3; ++k)
+                      c.frame.radiance.rgb[3 * pixel + k] +=
+                          light[static_cast<int>(k)] / static_cast<float>(c.settings.pixel_samples);
+                  }
+              });
+            }};
   if (has_textures(plan)) pass.reads.push_back(Buffer::kParameters);
   return pass;
 }

@@ -7,6 +7,7 @@
 
 #include "render/runtime/environment_maps.h"
 #include "render/runtime/frame.h"
+#include "render/runtime/residual_maps.h"
 #include "render/runtime/settings.h"
 #include "render/world/camera.h"
 #include "render/world/world.h"
@@ -18,6 +19,7 @@ struct Context {
   const world::Camera& camera;
   const Settings& settings;
   const EnvironmentMaps& maps;
+  const ResidualMaps& residuals;
   const surface::SceneLevels* levels;  // null: textures are read at full size
   Frame& frame;
   std::uint32_t sample = 0;  // of the pixel, 0 to settings.pixel_samples - 1

@@ -84,7 +84,10 @@ image::Picture Pipeline::frame(std::size_t index, const Settings& settings, int 
   std::unique_ptr<Frame> frame = idle_frame(camera);
   frame->radiance = image::Picture(frame->width, frame->height);
   if (world_.lights.environment() && settings.environment == EnvironmentLevel::kMaps)
-    std::call_once(maps_made_, [&] { maps_ = EnvironmentMaps(*world_.lights.environment()); });
+    std::call_once(maps_made_, [&] {
+      maps_ = EnvironmentMaps(*world_.lights.environment());
+      if (world_.plan.has(plan::Effect::kRealis)) residuals_ = ResidualMaps(*world_.lights.environment(), world_);
+    });
   const bool has_levels = world_.plan.has(plan::Effect::kTextureLevels) && settings.textures != texture::Filter::kFull;
   if (has_levels) std::call_once(levels_made_, [&] { levels_.emplace(world_.materials); });
   const std::vector<Pass> passes = passes_of(world_.plan, settings);
@@ -93,7 +96,7 @@ image::Picture Pipeline::frame(std::size_t index, const Settings& settings, int 
     for (const Pass& pass : passes) times->push_back({pass.name});
   }
   tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
-  Context context{world_, camera, settings, maps_, has_levels ? &*levels_ : nullptr, *frame};
+  Context context{world_, camera, settings, maps_, residuals_, has_levels ? &*levels_ : nullptr, *frame};
   for (; context.sample < static_cast<std::uint32_t>(settings.pixel_samples); ++context.sample)
     for (std::size_t i = 0; i < passes.size(); ++i) {
       const double wall_start = wall(), cpu_start = cpu();

@@ -50,6 +50,7 @@ class Pipeline {
   const world::World& world_;
   mutable std::once_flag maps_made_;
   mutable EnvironmentMaps maps_;
+  mutable ResidualMaps residuals_;
   mutable std::once_flag levels_made_;
   mutable std::optional<surface::SceneLevels> levels_;
   mutable std::mutex idle_mutex_;

@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "render/runtime/pass.h"
+#include "render/sampling/sobol.h"
 
 namespace likeness::runtime {
 namespace {
@@ -41,6 +42,7 @@ void read_pixel(Context& c, int x, int y, const Work& work, surface::Point& poin
   *out++ = work.has_proxima ? point.bound.bumps : 0;
   const auto* model = static_cast<const std::byte*>(point.bound.model);
   for (const std::uint16_t place : material.varying) std::memcpy(out++, model + place * sizeof(float), sizeof(float));
+  if (material.bake != nullptr) *out++ = point.residual.weight;
   if (shines)
     for (std::size_t k = 0; k < 3; ++k)
       c.frame.radiance.rgb[3 * pixel + k] += light[static_cast<int>(k)] / static_cast<float>(c.settings.pixel_samples);
@@ -51,7 +53,7 @@ void read_pixel(Context& c, int x, int y, const Work& work, surface::Point& poin
 bool has_textures(const plan::Plan& plan) {
   using plan::Effect;
   return plan.has(Effect::kTextures) || plan.has(Effect::kTextureLevels) || plan.has(Effect::kNormalMaps) ||
-         plan.has(Effect::kDualNormals);
+         plan.has(Effect::kDualNormals) || plan.has(Effect::kRealis);
 }
 
 Pass texture_pass(const plan::Plan& plan) {
@@ -62,7 +64,8 @@ Pass texture_pass(const plan::Plan& plan) {
           {Buffer::kSurfaces, Buffer::kParameters, Buffer::kRadiance},
           [=](Context& c) {
             std::size_t most = 0;
-            for (const surface::Prepared& material : c.world.materials) most = std::max(most, material.varying.size());
+            for (const surface::Prepared& material : c.world.materials)
+              most = std::max(most, material.varying.size() + (material.bake != nullptr ? 1 : 0));
             c.frame.parameter_stride = 1 + most;
             c.frame.parameters.resize(c.frame.parameter_stride * c.frame.cells.size());
             const Work work{has_dual_normals, has_proxima && c.settings.distant_diffuse == DistantDiffuse::kProxima,
@@ -73,6 +76,19 @@ Pass texture_pass(const plan::Plan& plan) {
                 for (int x = tile.x; x < tile.x + tile.width; ++x) read_pixel(c, x, y, work, point);
             });
           }};
+}
+
+// The dominant lobes of the texels, or some drawn by pixel and frame.
+static void restore_residual(const Context& context, std::size_t pixel, float weight, surface::Point& point) {
+  surface::bind_residual(context.world.surfaces.turn(context.frame.hits[pixel].instance), weight, point);
+  surface::ResidualAt& at = point.residual;
+  if (point.bound.bumps > 0) at.plain = &point.material->plain_distant_kernel;
+  at.groups = std::min(at.groups, 1u);
+  const int drawn = point.material->material->residual->jitter;
+  if (drawn == 0 || at.groups == 0) return;
+  constexpr std::uint32_t kJitter = 0x7f4a7c15u;  // other numbers than those of lights
+  sampling::Samples numbers(static_cast<std::uint32_t>(pixel), context.sample, context.settings.seed + kJitter);
+  at.place(point.uv, drawn, numbers.next());
 }
 
 void restore(const Context& context, std::size_t pixel, surface::Point& point) {
@@ -94,6 +110,7 @@ void restore(const Context& context, std::size_t pixel, surface::Point& point) {
       std::memcpy(point.scratch.bytes.data() + place * sizeof(float), numbers++, sizeof(float));
     point.bound.model = &point.scratch;
   }
+  if (material.bake != nullptr) restore_residual(context, pixel, *numbers, point);
   if (material.has_dual_normals()) {
     point.bound.diffuse_normal = context.frame.dual_cells[pixel].diffuse_normal;
     point.bound.specular_normal = context.frame.dual_cells[pixel].specular_normal;

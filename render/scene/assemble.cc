@@ -259,6 +259,11 @@ class Assembly {
         instance.refuse("mesh", " = " + in_quotes(instance.text("mesh")) +
                                     " has no texture coordinates, but material " +
                                     in_quotes(scene_.materials[out.material].name) + " has textures");
+      if (scene_.materials[out.material].residual && mesh.uvs.empty() && !mesh.is_sphere)
+        instance.refuse("mesh", " = " + in_quotes(instance.text("mesh")) +
+                                    " has no texture coordinates, but material " +
+                                    in_quotes(scene_.materials[out.material].name) +
+                                    " has a bake (\"realis\"), whose texels are placed by them");
       out.world_from_object = glm::mat4(place * part.world_from_object);
       if (mesh.is_sphere && !keeps_spheres_round(glm::dmat3(out.world_from_object)))
         instance.refuse("mesh", " = " + in_quotes(instance.text("mesh")) +

@@ -57,6 +57,17 @@ constexpr std::array kMeshKeys{
     Key{.name = "part", .form = Form::kText, .text = "take only the glTF node (with what hangs on it) or the OBJ object or group of this name"},
     Key{.name = "normals", .form = Form::kChoice, .initial = "file", .choices = kNormals, .text = "the file's (flat if it has none), smooth (angle-weighted mean of the triangles), or flat"},
 };
+constexpr std::array kResidualKeys{
+    Key{.name = "bake", .form = Form::kFile, .required = true, .text = "folder that `likeness realis bake` wrote; its texels are placed by uv"},
+    Key{.name = "strength", .form = Form::kNumber, .initial = "1", .range = {0, 100}, .text = "times the residual"},
+    Key{.name = "fades", .form = Form::kFlag, .initial = "true", .text = "the residual goes where base color, roughness or normal are no longer the bake's; a bake without them does not fade"},
+    Key{.name = "fade_base_color", .form = Form::kPair, .initial = "0.1 0.5", .range = {0, 10}, .text = "relative difference from which on it is less, and at which it is gone"},
+    Key{.name = "fade_roughness", .form = Form::kPair, .initial = "0.05 0.3", .range = {0, 10}, .text = "the same, of the difference"},
+    Key{.name = "fade_normal_deg", .form = Form::kPair, .initial = "5 26", .range = {0, 360}, .unit = "degree", .text = "the same, of the angle between normals; above 180 is never reached"},
+    Key{.name = "jitter", .form = Form::kWhole, .initial = "0", .range = {0, 8}, .text = "run-time frames: so many lobes of one texel, drawn by pixel and frame, in the place of the eight dominant ones of four; 0: no jitter"},
+};
+constexpr Section kResidual{"realis", "What photographs have and the model has not, baked (docs/realis.md).", kResidualKeys};
+constexpr std::array kResiduals{&kResidual};
 constexpr std::array kMaterialKeys{
     Key{.name = "file", .form = Form::kFile, .text = "material file (docs/material_file.md); its parameters come first"},
     Key{.name = "model", .form = Form::kText, .initial = "callisto", .text = "surface model (docs/models/README.md), if there is no file"},
@@ -70,6 +81,7 @@ constexpr std::array kMaterialKeys{
     Key{.name = "emission_unit", .form = Form::kChoice, .initial = "W/(m2 sr)", .choices = kEmissionUnits, .text = "cd/m2 is divided by 683 lm/W"},
     Key{.name = "emission_map", .form = Form::kObject, .sections = kTextures, .text = "texture, multiplies it"},
     Key{.name = "two_sided", .form = Form::kFlag, .initial = "true", .text = "false: its back is black, and emits nothing"},
+    Key{.name = "realis", .form = Form::kObject, .sections = kResiduals, .text = "a baked residual that is added to the light which the model returns"},
 };
 constexpr std::array kInstanceKeys{
     Key{.name = "name", .form = Form::kText, .text = "for people"},

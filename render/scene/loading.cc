@@ -60,10 +60,7 @@ Index Loading::once(const std::string& key, bool is_light, Read&& read) {
     if (t.width < 1 || t.height < 1 || t.channels < 1 || t.channels > 4 ||
         t.count() * static_cast<std::size_t>(t.channels) != t.bytes.size() + t.floats.size())
       throw files::InputError(key + ": holds no picture");
-    texel_bytes_ += t.bytes.size() + 4 * t.floats.size();
-    if (texel_bytes_ > kMostTexelBytes)
-      throw files::InputError(key +
-                              ": with it the pictures of the scene take more than 16 GB of memory; use smaller ones");
+    count_bytes(t.bytes.size() + 4 * t.floats.size(), key);
     const Mended mended = mend(image.texels.floats);
     if (mended.not_numbers) repair("texels that are no numbers made 0", key, mended.not_numbers);
     if (mended.infinite) repair("texels without bound made finite", key, mended.infinite);
@@ -74,6 +71,13 @@ Index Loading::once(const std::string& key, bool is_light, Read&& read) {
     if (const std::size_t count = lift_negative(scene_.images[at->second].texels.floats))
       repair("negative texels of light made 0", key, count);
   return at->second;
+}
+
+void Loading::count_bytes(std::size_t bytes, const std::string& key) {
+  texel_bytes_ += bytes;
+  if (texel_bytes_ > kMostTexelBytes)
+    throw files::InputError(key +
+                            ": with it the pictures of the scene take more than 16 GB of memory; use smaller ones");
 }
 
 std::string Loading::bytes(const std::filesystem::path& file, std::size_t limit) {
@@ -96,6 +100,20 @@ Index Loading::profile(const std::filesystem::path& file) {
   if (fresh) {
     scene_.profiles.push_back(profile_of(bytes(file, kMostProfileBytes), key));
     at->second = static_cast<Index>(scene_.profiles.size() - 1);
+  }
+  return at->second;
+}
+
+Index Loading::bake(const std::filesystem::path& folder) {
+  check_name(folder);
+  const std::string key = folder.lexically_normal().string();
+  auto [at, fresh] = bakes_.try_emplace(key, kNone);
+  if (fresh) {
+    if (!access_.bakes.bytes) throw files::InputError(key + ": is a bake, which cannot be read from here");
+    baked::Residual bake = baked::read_residual(folder, access_.bakes);
+    count_bytes(bake.bytes(), key);
+    at->second = static_cast<Index>(scene_.bakes.size());
+    scene_.bakes.push_back(std::move(bake));
   }
   return at->second;
 }

@@ -16,6 +16,7 @@ struct Access {
   std::function<std::string(const std::filesystem::path& file, std::size_t limit)> bytes;
   std::function<image::Texels(const std::filesystem::path& file)> texels;
   std::function<image::Texels(std::string_view bytes, const std::string& name)> decode;
+  baked::Access bakes{};  // of the folders of bakes; without it there are none
 };
 
 inline constexpr std::size_t kMostMeshFileBytes = std::size_t{4} << 30;
@@ -38,6 +39,7 @@ class Loading {
   Index image(const std::filesystem::path& file, bool is_light);
   Index image(std::string_view encoded, const std::string& name, bool is_light);
   Index profile(const std::filesystem::path& file);
+  Index bake(const std::filesystem::path& folder);
 
   // Adds to the count of the same thing at the same place.
   void repair(const std::string& what, const std::string& where, std::size_t count = 1);
@@ -45,10 +47,11 @@ class Loading {
  private:
   template <class Read>
   Index once(const std::string& key, bool is_light, Read&& read);
+  void count_bytes(std::size_t bytes, const std::string& key);
 
   Scene& scene_;
   const Access& access_;
-  std::map<std::string, Index> images_, profiles_;
+  std::map<std::string, Index> images_, profiles_, bakes_;
   std::map<std::pair<std::string, std::string>, std::size_t> repairs_;
   std::size_t texel_bytes_ = 0;
 };

@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include "render/files/files.h"
 #include "render/material/material_file.h"
@@ -77,6 +79,32 @@ void read_parameter(const Fields& fields, const Value& value, const std::filesys
   if (!wrong.empty()) refuse(wrong);
 }
 
+brdf::Interval interval_of(const Fields& fields, std::string_view key, double (*scale)(double)) {
+  const glm::dvec2 ends = fields.pair(key);
+  if (!(ends.x < ends.y))
+    fields.refuse(key, " = [" + files::number_text(ends.x) + ", " + files::number_text(ends.y) +
+                           "]; expected a smaller number first");
+  return {scale(ends.x), scale(ends.y)};
+}
+
+Material::BakedResidual residual_of(const Fields& fields, const std::filesystem::path& folder, Loading& loading) {
+  Material::BakedResidual out;
+  const auto itself = [](double x) { return x; };
+  // 1 - cos; what no angle reaches goes on straight, so that ends keep their order.
+  const auto versine = [](double degrees) {
+    const double angle = degrees * std::numbers::pi / 180;
+    return angle < std::numbers::pi ? 1 - std::cos(angle) : 2 + (angle - std::numbers::pi);
+  };
+  const brdf::RealisFade fade{interval_of(fields, "fade_base_color", itself),
+                              interval_of(fields, "fade_roughness", itself),
+                              interval_of(fields, "fade_normal_deg", versine)};
+  out.strength = static_cast<float>(fields.number("strength"));
+  out.jitter = fields.whole("jitter");
+  out.bake = loading.bake(folder / fields.text("bake"));
+  if (fields.flag("fades") && loading.scene().bakes[out.bake].surface) out.fade = fade;
+  return out;
+}
+
 }  // namespace
 
 Material material_of(const Fields& fields, const std::string& name, const std::filesystem::path& folder,
@@ -114,6 +142,7 @@ Material material_of(const Fields& fields, const std::string& name, const std::f
   if (out.emission_map && !fields.has("emission"))
     fields.refuse("emission_map", " multiplies \"emission\", which is not given and therefore 0");
   out.two_sided = fields.flag("two_sided");
+  if (const std::optional<Fields> inner = fields.object("realis")) out.residual = residual_of(*inner, folder, loading);
   return out;
 }
 

@@ -15,6 +15,8 @@
 #include <glm/vec4.hpp>
 
 #include "brdf/any_brdf.h"
+#include "brdf/realis/fade.h"
+#include "render/baked/residual.h"
 #include "render/image/texels.h"
 
 // What a picture is made of, as plain values: a scene file read, checked and repaired, before anything is built from it.
@@ -67,9 +69,18 @@ struct Material {
     Texture texture;
   };
 
+  // What photographs had beyond the model (docs/realis.md): added to f cos_i of every light.
+  struct BakedResidual {
+    Index bake = kNone;  // in Scene::bakes
+    float strength = 1;
+    std::optional<brdf::RealisFade> fade;  // absent: the residual does not fade
+    int jitter = 0;                        // of frames: so many lobes of a texel, drawn anew each frame; 0: all
+  };
+
   std::string name;
   brdf::AnyBrdf brdf;
   std::vector<Binding> bindings;
+  std::optional<BakedResidual> residual;
 
   std::optional<Texture> normal_map;          // in the tangent frame, 2 texel - 1; x along u, y against v (as glTF)
   float normal_strength = 1;                  // times x and y
@@ -186,6 +197,7 @@ struct Scene {
   std::string name;
   std::vector<Camera> cameras;
   std::vector<Image> images;
+  std::vector<baked::Residual> bakes;
   std::vector<Mesh> meshes;
   std::vector<Material> materials;
   std::vector<Instance> instances;

@@ -12,6 +12,8 @@
 // once, and called without a further question.
 namespace likeness::surface {
 
+struct ResidualAt;  // residual.h
+
 // The model's parameters at a point: a model in floats, as kernel's functions know it.
 struct Bound {
   const void* model = nullptr;
@@ -19,6 +21,7 @@ struct Bound {
   glm::vec3 diffuse_normal{0, 0, 1}, specular_normal{0, 0, 1};
   // Alpha of bumps that are too small to be seen, in the diffuse; what distant kernels read. 0: there are none.
   float bumps = 0;
+  const ResidualAt* residual = nullptr;  // of a material with a bake, whose kernel reads it
 };
 
 // f cos_i [1/sr], and the density with which sample() gives that direction [1/sr]. 0 at and below the horizon.

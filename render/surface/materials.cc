@@ -4,6 +4,7 @@
 #include <cstring>
 #include <tuple>
 
+#include "render/surface/residual.h"
 #include "render/texture/texture.h"
 
 namespace likeness::surface {
@@ -36,6 +37,7 @@ void prepare(const M<double>& model, const scene::Scene& scene, Prepared& out) {
   out.model_bytes = sizeof in_floats;
   std::memcpy(&out.model, &in_floats, sizeof in_floats);
   for (std::size_t i = 0; i < kRows; ++i) {
+    if (M<double>::kParameters[i].name == "base_color") out.base_color_at = places[i];
     if (M<double>::kParameters[i].name == "roughness") out.roughness_at = places[i];
     if (M<double>::kParameters[i].name == "dual_specular_roughness_scale") out.second_scale_at = places[i];
   }
@@ -97,6 +99,11 @@ std::vector<Prepared> prepare_materials(const scene::Scene& scene, bool force_al
       if ((out.callisto_parts & C::kSecondLobe) == 0) out.second_scale_at = kNoPlace;
     }
     out.varying = varying_of(out);
+    if (material.residual) {
+      out.bake = &scene.bakes[material.residual->bake];
+      out.plain_kernel = out.kernel, out.plain_distant_kernel = out.distant_kernel;
+      out.kernel = out.distant_kernel = residual_kernel();
+    }
   }
   return all;
 }

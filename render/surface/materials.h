@@ -36,20 +36,26 @@ struct Prepared {
 
   const scene::Material* material = nullptr;
   Kernel kernel,
-      distant_kernel;           // the latter for Bound::bumps; the same where the material has no diffuse of Callisto's
+      distant_kernel;  // the latter for Bound::bumps; the same where the material has no diffuse of Callisto's
+  // With a bake those two are residual_kernel(), and these are the model's.
+  Kernel plain_kernel, plain_distant_kernel;
+  const baked::Residual* bake = nullptr;
   unsigned callisto_parts = 0;  // that the kernel has; 0 for other models
   std::size_t model_bytes = 0;
   ModelBytes model;
   std::vector<Slot> slots;
   // Where the roughness of its (first) specular lobe lies in the model, and the second's over it if there is one [floats].
   std::size_t roughness_at = kNoPlace, second_scale_at = kNoPlace;
+  std::size_t base_color_at = kNoPlace;  // of the model's base_color, three floats
   std::vector<std::uint16_t>
       varying;  // places of what may differ from point to point: slots, and roughness under bumps
   const scene::Image *normal_map = nullptr, *diffuse_normal_map = nullptr, *emission_map = nullptr;
   bool emits = false, is_callisto = false;
 
   bool has_dual_normals() const { return diffuse_normal_map != nullptr; }
-  bool has_textures() const { return !slots.empty() || normal_map != nullptr || diffuse_normal_map != nullptr; }
+  bool has_textures() const {
+    return !slots.empty() || normal_map != nullptr || diffuse_normal_map != nullptr || bake != nullptr;
+  }
 
   // The parameters at a place: the model itself, or a copy of it in `scratch` with what the textures say.
   const void* model_at(const glm::vec2& uv, ModelBytes& scratch) const;

@@ -12,6 +12,7 @@
 #include "render/scene/scene.h"
 #include "render/surface/distance.h"
 #include "render/surface/materials.h"
+#include "render/surface/residual.h"
 
 namespace likeness::surface {
 
@@ -28,9 +29,12 @@ struct Point {
   const Kernel* kernel = nullptr;  // of the material, or its distant one
   bool is_back = false;            // the viewer is behind it
   Bound bound;
-  ModelBytes scratch;  // where bound.model may point to
+  ModelBytes scratch;   // where bound.model may point to
+  ResidualAt residual;  // where bound.residual may point to
 
   bool has_dual_frame() const { return material->has_dual_normals(); }
+  // The normal of the half space that light comes from: residuals take it where the shading normal turns away, too.
+  const glm::vec3& light_normal() const { return material->bake != nullptr ? normal : shading_normal; }
   bool is_black() const { return is_back && !material->material->two_sided; }
   Value eval(const glm::vec3& to_light) const {
     if (glm::dot(to_light, normal) <= 0) return {};
@@ -77,6 +81,9 @@ class Surfaces {
   glm::vec3 emission(const Point& point) const;
   glm::vec3 emission_over(const ray::Ray& ray, const ray::Hit& hit, const Pixel& pixel, const Point& point) const;
 
+  // How the directions of a bake's lobes lie in an instance: model space from the world's.
+  const glm::mat3& turn(scene::Index instance) const { return turns_[instance]; }
+
   glm::vec2 uv_at(scene::Index instance, scene::Index triangle, float u, float v) const;
 
  private:
@@ -95,7 +102,14 @@ class Surfaces {
   template <class Textures>
   void dress(const ray::Hit& hit, glm::vec3 normal, const glm::vec3& to_view, Textures&& textures, Point& point) const;
 
+  void add_residual(scene::Index instance, Point& point) const;
+
   std::vector<Placed> placed_;
+  std::vector<glm::mat3> turns_;
 };
+
+// Points a point with a frame to the bake of its material: all lobes of the four texels about uv. `weight` is what
+// point.residual.weight is to be.
+void bind_residual(const glm::mat3& model_from_world, float weight, Point& point);
 
 }  // namespace likeness::surface

@@ -149,6 +149,13 @@ const std::vector<Edit>& edits() {
        [](Scene& s) { s.materials[0].diffuse_normal_map = texture(s); },
        {Effect::kDualNormals},
        "diffuse_normal_map"},
+      {"a bake",
+       [](Scene& s) {
+         s.bakes.emplace_back().name = "photos/bake";
+         s.materials[0].residual.emplace().bake = 0;
+       },
+       {Effect::kRealis},
+       "bake \"photos/bake\""},
       {"a cut-out", [](Scene& s) { s.materials[0].opacity = texture(s); }, {Effect::kCutOuts}, "opacity"},
       {"emission", [](Scene& s) { s.materials[0].emission = {0, 0, 1}; }, {Effect::kEmission}, "emission"},
       {"a point light",
@@ -219,7 +226,7 @@ TEST(Plan, FromASecondMaterialIsTheSame) {
     two.materials.push_back(edited.materials[0]);
     two.instances.push_back({"other", 0, 1, glm::mat4(1)});
     two.images = edited.images, two.lights = edited.lights, two.profiles = edited.profiles;
-    two.environment = edited.environment, two.cameras = edited.cameras;
+    two.environment = edited.environment, two.cameras = edited.cameras, two.bakes = edited.bakes;
     EXPECT_EQ(names(on(plan_of(two))), names(on(plan_of(s)))) << e.what;
   }
 }
@@ -235,6 +242,8 @@ Scene full_scene() {
   s.materials[0].normal_map = s.materials[0].diffuse_normal_map = s.materials[0].opacity = texture(s);
   s.images[0].texels = {2, 1, 1, {100, 150}, {}};
   s.materials[0].emission = {1, 1, 1};
+  s.bakes.emplace_back();
+  s.materials[0].residual.emplace().bake = 0;
   s.materials.emplace_back().brdf = brdf::Disney2012<double>{};
   s.instances.push_back({"other", 0, 1, glm::mat4(1)});
   s.profiles.emplace_back();

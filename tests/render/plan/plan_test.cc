@@ -69,6 +69,13 @@ const std::map<Effect, Case>& cases() {
        {[](auto& s) { s.materials[0].normal_map = scene::Texture{0}; }, {}, "material \"steel\": normal_map"}},
       {Effect::kDualNormals,
        {[](auto& s) { s.materials[0].diffuse_normal_map = scene::Texture{0}; }, {}, "diffuse_normal_map"}},
+      {Effect::kRealis,
+       {[](auto& s) {
+          s.bakes.emplace_back().name = "photos/bake";
+          s.materials[0].residual.emplace().bake = 0;
+        },
+        {},
+        "material \"steel\": bake \"photos/bake\""}},
       {Effect::kCutOuts, {[](auto& s) { s.materials[0].opacity = scene::Texture{0}; }, {}, "opacity"}},
       {Effect::kEmission, {[](auto& s) { s.materials[0].emission = {0, 0, 1}; }, {}, "emission"}},
       {Effect::kPointLights, {[](auto& s) { s.lights = {{"lamp", scene::SpotLight{}}}; }, {}, "light \"lamp\": spot"}},

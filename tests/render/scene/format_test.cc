@@ -67,7 +67,7 @@ bool is_valid(const json::Value& value, const json::Value& schema, const json::V
 TEST(SceneFormat, EveryKeySaysWhatItIs) {
   std::set<std::string> sections;
   for (const std::string& name : section_names()) EXPECT_TRUE(sections.insert(name).second) << name;
-  EXPECT_EQ(sections.size(), 14u);
+  EXPECT_EQ(sections.size(), 15u);
   const auto check = [](const auto& self, const Section& section) -> void {
     EXPECT_FALSE(section.text.empty()) << section.name;
     std::set<std::string_view> keys;
