@@ -85,8 +85,8 @@ Bake bake(const Subject& subject, const BakeOptions& options, const GoesOn& goes
 
 Bake bake_with(const Subject& subject, Basis basis, const BakeOptions& options, const GoesOn& goes_on) {
   Bake out;
-  out.basis = std::move(basis), out.channels = options.channels, out.floor = options.floor;
-  const std::size_t lobes = out.basis.lobes.size(), lights = subject.lights.size(), channels = out.channel_count();
+  out.basis = std::move(basis), out.channels = options.channels, out.floor = options.floor, out.bits = options.bits;
+  const std::size_t lobes = out.basis.size(), lights = subject.lights.size(), channels = out.channel_count();
   out.kept = options.dominant > 0 ? std::min(options.dominant, lobes) : lobes;
   out.coefficients.assign(subject.texels() * channels * lobes, 0.0f);
   if (lobes == 0) return out;
@@ -125,7 +125,7 @@ Bake bake_with(const Subject& subject, Basis basis, const BakeOptions& options, 
 }
 
 Residual::Residual(const baked::Bake& bake, const glm::dvec3& to_light)
-    : bake_(bake), values_(values(bake.basis.lobes, std::span(&to_light, 1))) {}
+    : bake_(bake), values_(values(bake.basis, std::span(&to_light, 1))) {}
 
 std::array<double, 3> Residual::at(std::size_t texel, double cosine) const {
   const std::size_t lobes = values_.size(), channels = bake_.channel_count();

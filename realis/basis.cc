@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include <glm/geometric.hpp>
 
@@ -20,6 +21,19 @@ std::vector<double> values(std::span<const Lobe> lobes, std::span<const glm::dve
       gaussian.plain.sharpness = lobe.sharpness;
       out.push_back(gaussian.eval(brdf::Vec3<double>(direction.x, direction.y, direction.z)));
     }
+  return out;
+}
+
+std::vector<double> values(const Basis& basis, std::span<const glm::dvec3> directions) {
+  const std::vector<double> rows = values(basis.lobes, directions);
+  if (basis.mix.empty()) return rows;
+  const std::size_t lobes = basis.lobes.size(), mixes = basis.size();
+  std::vector<double> out(mixes * directions.size());
+  for (std::size_t i = 0; i < directions.size(); ++i)
+    for (std::size_t m = 0; m < mixes; ++m)
+      out[i * mixes + m] = std::inner_product(rows.begin() + static_cast<std::ptrdiff_t>(i * lobes),
+                                              rows.begin() + static_cast<std::ptrdiff_t>((i + 1) * lobes),
+                                              basis.mix.begin() + static_cast<std::ptrdiff_t>(m * lobes), 0.0);
   return out;
 }
 

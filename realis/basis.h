@@ -18,6 +18,9 @@ using baked::Lobe;
 // Lobe by lobe towards each direction (unit): directions x lobes.
 std::vector<double> values(std::span<const Lobe> lobes, std::span<const glm::dvec3> directions);
 
+// The same of what a texel's coefficients are of: the lobes, or their mixes.
+std::vector<double> values(const Basis& basis, std::span<const glm::dvec3> directions);
+
 // `count` directions that stand for those given (unit): the farthest from those already chosen one after the other, then
 // moved to the middle of what is nearest to them (k-means on the sphere) until nothing moves. No more than there are
 // different ones; `count` of all of them are all of them, in their order. The same input gives the same output.

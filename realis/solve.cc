@@ -26,7 +26,7 @@ struct Solver::Work {
   Matrix system, rows, right, found;
   Eigen::LLT<Matrix> factor;
 
-  Eigen::Index lobes() const { return static_cast<Eigen::Index>(basis.lobes.size()); }
+  Eigen::Index lobes() const { return static_cast<Eigen::Index>(basis.size()); }
   void take(std::span<const double> weights) {
     seen.clear();
     for (std::size_t i = 0; i < weights.size(); ++i)
@@ -53,7 +53,7 @@ const Basis& Solver::basis() const { return work_->basis; }
 
 void Solver::aim(std::span<const glm::dvec3> to_lights) {
   Work& w = *work_;
-  const std::vector<double> rows = values(w.basis.lobes, to_lights);
+  const std::vector<double> rows = values(w.basis, to_lights);
   const auto lights = static_cast<Eigen::Index>(to_lights.size());
   w.values = Columns(rows.data(), w.lobes(), lights).transpose();
   for (Eigen::Index k = 0; k < w.lobes(); ++k) w.values.col(k) *= w.basis.spread[static_cast<std::size_t>(k)];
@@ -62,7 +62,7 @@ void Solver::aim(std::span<const glm::dvec3> to_lights) {
 
 void Solver::solve(std::span<const double> weights, std::span<const double> residuals, std::span<double> coefficients) {
   Work& w = *work_;
-  w.chosen.resize(w.basis.lobes.size());
+  w.chosen.resize(w.basis.size());
   std::iota(w.chosen.begin(), w.chosen.end(), std::size_t{0});
   solve_with(w.chosen, weights, residuals, coefficients);
 }
@@ -111,7 +111,7 @@ void Solver::solve_with(std::span<const std::size_t> chosen, std::span<const dou
 void Solver::solve_kept(std::size_t kept, std::span<const double> weights, std::span<const double> residuals,
                         std::span<double> coefficients) {
   solve(weights, residuals, coefficients);
-  const std::size_t lobes = work_->basis.lobes.size();
+  const std::size_t lobes = work_->basis.size();
   if (kept >= lobes) return;
   std::vector<std::size_t>& chosen = work_->largest;
   const auto size = [&](std::size_t k) {

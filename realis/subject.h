@@ -45,6 +45,16 @@ struct Subject {
   std::vector<float> weight;  // [0, 1], how far the photo can be trusted: 0 where it is clipped, black or not finite
   std::vector<LightCensus> census{};  // of each light
 
+  // Of each texel: what its diffuse part returns of a light of irradiance 1 that it faces; empty: not known. What is seen is
+  // taken to be `least` of it under any light.
+  std::vector<std::array<float, 3>> facing{};
+  double least = 0;
+
+  // The least light of a sample.
+  float least_of(std::size_t texel, std::size_t light, std::size_t channel) const {
+    return facing.empty() ? 0.0f
+                          : static_cast<float>(least * irradiance_of(light) * static_cast<double>(facing[texel][channel]));
+  }
   double irradiance_of(std::size_t light) const { return irradiance.empty() ? 1 : irradiance[light]; }
   std::size_t texels() const { return pixels.size(); }
   std::size_t samples_of(std::size_t texel) const { return texel * lights.size(); }  // the first of them

@@ -1,4 +1,5 @@
 #include <array>
+#include <numbers>
 
 #include <glm/geometric.hpp>
 #include <tbb/parallel_for.h>
@@ -6,6 +7,7 @@
 #include "fit/capture/capture_fit.h"
 #include "fit/capture/shared.h"
 #include "fit/capture/site.h"
+#include "fit/capture/soft_cosine.h"
 
 namespace likeness::capture_fit {
 
@@ -27,12 +29,15 @@ Shading Relighting::shading(std::size_t light) const {
       if (normal == glm::dvec3(0)) continue;
       const Site site{capture::to_view_of(camera, x, y),
                       {capture::shine_of(capture_.lights[light], positions_.at(x, y))}};
+      const auto at =
+          static_cast<std::size_t>(y) * static_cast<std::size_t>(normals.width) + static_cast<std::size_t>(x);
+      const capture::Shine& shine = site.shines[0];
+      const double beyond = beyond_hard(glm::dot(normal, shine.to_light), fit_.spread) / std::numbers::pi;
+      out.diffuse[at] = static_cast<float>(fit_.exposure * shine.irradiance * beyond);
       face_under(site, normal, fit_.exposure, face);
       shade(fit_.material, face, shading);
       if (face.angles.empty()) continue;
-      const auto at =
-          static_cast<std::size_t>(y) * static_cast<std::size_t>(normals.width) + static_cast<std::size_t>(x);
-      out.diffuse[at] = static_cast<float>(shading.diffuse[0]);
+      out.diffuse[at] += static_cast<float>(shading.diffuse[0]);
       out.specular[at] = static_cast<float>(shading.specular[0]);
     }
   });

@@ -13,6 +13,8 @@
 #include "realis/bake_file.h"
 #include "realis/baseline/baseline.h"
 #include "realis/from_capture.h"
+#include "realis/mixes.h"
+#include "realis/terminator.h"
 #include "render/files/files.h"
 #include "render/files/interrupt.h"
 
@@ -25,51 +27,6 @@ double seconds_since(Clock::time_point begin) { return std::chrono::duration<dou
 
 constexpr std::size_t kRenderBytes = 5;  // base color and normal
 constexpr double kPeakShare = 0.999, kNoiseShare = 1e-3;
-
-double quantile(std::vector<float>& values, double share) {
-  if (values.empty()) return 0;
-  const auto at = std::min(values.size() - 1, static_cast<std::size_t>(share * static_cast<double>(values.size())));
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(at), values.end());
-  return static_cast<double>(values[at]);
-}
-
-// Of samples that can be trusted.
-class Sum {
- public:
-  Sum(double peak, double noise) : peak_(peak), noise_(noise) {}
-  void add(std::span<const Color> predicted, std::span<const Color> photo, std::span<const float> weight) {
-    for (std::size_t t = 0; t < predicted.size(); ++t) {
-      if (!(weight[t] > 0)) continue;
-      for (std::size_t c = 0; c < 3; ++c) {
-        const double a = std::max(static_cast<double>(predicted[t][c]), 0.0);
-        const double b = std::max(static_cast<double>(photo[t][c]), 0.0);
-        squares_ += (a - b) * (a - b);
-        stops_.push_back(static_cast<float>(std::abs(std::log2((a + noise_) / (b + noise_)))));
-      }
-    }
-  }
-  Errors errors() {
-    if (stops_.empty()) return {};
-    const double mean = squares_ / static_cast<double>(stops_.size());
-    constexpr double kExact = 1e-20;  // of the peak's square: 200 dB
-    return {-10 * std::log10(std::max(mean / (peak_ * peak_), kExact)), quantile(stops_, 0.5), quantile(stops_, 0.95)};
-  }
-
- private:
-  double peak_, noise_, squares_ = 0;
-  std::vector<float> stops_;
-};
-
-std::vector<Color> photo_of(const Subject& s, std::size_t light) {
-  std::vector<Color> out(s.texels());
-  for (std::size_t t = 0; t < s.texels(); ++t) out[t] = s.photo[s.samples_of(t) + light];
-  return out;
-}
-std::vector<float> weight_of(const Subject& s, std::size_t light) {
-  std::vector<float> out(s.texels());
-  for (std::size_t t = 0; t < s.texels(); ++t) out[t] = s.weight[s.samples_of(t) + light];
-  return out;
-}
 
 // What it takes to add up `numbers` of a texel [ns].
 double ns_of(std::size_t numbers) {
@@ -95,8 +52,10 @@ double luminance(const Color& c) {
 }
 
 struct Plan {
-  std::size_t lobes, dominant;
-  Channels channels;
+  bool is_mixed;
+  std::size_t count, dominant;  // of mixes or lobes
+  Channels channels = Channels::kLuminance;
+  baked::Bits bits = baked::Bits::kEight;
 };
 
 class Worker {
@@ -110,7 +69,9 @@ class Worker {
       add("render", Family::kRender, kRenderBytes, [&](std::size_t i) {
         std::vector<Color> out(subject().texels());
         const Subject& s = folds_[fold_of(i)];
-        for (std::size_t t = 0; t < out.size(); ++t) out[t] = s.render[s.samples_of(t) + i];
+        for (std::size_t t = 0; t < out.size(); ++t)
+          for (std::size_t c = 0; c < 3; ++c)
+            out[t][c] = std::max(s.render[s.samples_of(t) + i][c], s.least_of(t, i, c));
         return out;
       });
       for (const RelighterRow& row : kRelighters)
@@ -138,16 +99,23 @@ class Worker {
   }
 
   std::vector<Plan> plans() const {
+    using enum Channels;
+    using enum baked::Bits;
     std::vector<Plan> out;
-    for (const std::size_t k : {2, 4, 6, 8, 12, 16, 24, 31, 43, 64, 96, 192})
-      out.push_back({k, 0, Channels::kLuminance});
-    out.push_back({32, 8, Channels::kLuminance});
+    const std::size_t others = lights() - 1;
+    for (const std::size_t k : {4, 8, 14, 24}) out.push_back({true, k, 0, kLuminance, kFour});
+    for (const std::size_t k : {2, 4, 6, 7, 8, 12, 14, 16, 22, 31, 43, 64, 96}) out.push_back({true, k, 0});
+    for (const std::size_t k : {8, 32}) out.push_back({false, k, 0});
+    out.push_back({false, 32, 8});
     if (options_.with_rgb) {
-      for (const std::size_t k : {2, 4, 8, 10, 14, 31}) out.push_back({k, 0, Channels::kRgb});
-      out.push_back({32, 8, Channels::kRgb});
+      for (const std::size_t k : {4, 8, 14, 31, 64}) out.push_back({true, k, 0, kRgb});
+      // No more bytes than the photographs take, with color and normal.
+      if (lights() > 3) out.push_back({true, lights() - 2, 0, kRgb});
+      out.push_back({false, 32, 8, kRgb});
     }
-    // More lobes than four scales of all lights there cannot be.
-    std::erase_if(out, [&](const Plan& p) { return p.lobes > 4 * (lights() - 1) || p.lobes > kMostLobes; });
+    // More mixes than lights there cannot be, nor more lobes than four scales of all lights.
+    std::erase_if(out,
+                  [&](const Plan& p) { return p.count > (p.is_mixed ? others : 4 * others) || p.count > kMostLobes; });
     return out;
   }
 
@@ -173,7 +141,7 @@ class Worker {
     std::vector<float> values;
     for (std::size_t i = 0; i < subject().photo.size(); ++i)
       if (subject().weight[i] > 0) values.insert(values.end(), subject().photo[i].begin(), subject().photo[i].end());
-    study_.peak = quantile(values, kPeakShare);
+    study_.peak = quantile_of(std::move(values), kPeakShare);
     if (!(study_.peak > 0)) throw files::UsageError("the photographs are black");
     study_.noise = kNoiseShare * study_.peak;
     if (camera_ < capture_.noise_floor.size()) {
@@ -196,6 +164,10 @@ class Worker {
       }
       relight(folds_[f],
               fit ? renders_of_fit(capture_, *fit) : renders_of_variant(capture_, camera_, *options_.variant));
+      if (fit) {
+        face(folds_[f], *fit);
+        soften(folds_[f], terminator_of(without(folds_[f], lights_of(f))));
+      }
     }
     study_.subject = folds_[0];
   }
@@ -210,13 +182,8 @@ class Worker {
     });
   }
 
-  Errors total(const std::vector<std::vector<Color>>& predicted) const {
-    Sum sum(study_.peak, study_.noise);
-    for (std::size_t i = 0; i < lights(); ++i) sum.add(predicted[i], photo_of(subject(), i), weight_of(subject(), i));
-    return sum.errors();
-  }
   void finish(Row row) {
-    row.errors = total(row.predicted);
+    row.errors = errors_of(row.predicted, subject(), study_.peak, study_.noise);
     for (std::size_t i = 0; i < lights(); ++i)
       row.by_light.push_back(
           errors_of(row.predicted[i], photo_of(subject(), i), weight_of(subject(), i), study_.peak, study_.noise));
@@ -306,23 +273,39 @@ class Worker {
     return at->second[fold];
   }
 
+  // Mixes without a light.
+  const Mixes& mixes(std::size_t left) {
+    mixes_.resize(lights());
+    if (!mixes_[left]) {
+      const auto begin = Clock::now();
+      const Subject others = without(folds_[fold_of(left)], std::span(&left, 1));
+      mixes_[left].emplace(others, prior_of(others.to_lights), options_.floor, options_.seed);
+      choosing_mixes_ += seconds_since(begin) / static_cast<double>(lights());
+    }
+    return *mixes_[left];
+  }
+
+  static std::string name_of(const Plan& plan) {
+    return "render + " + (plan.dominant > 0 ? std::to_string(plan.dominant) + " of " : "") +
+           std::to_string(plan.count) + (plan.is_mixed ? " mixes" : " lobes") +
+           (plan.channels == Channels::kRgb ? " RGB" : " luminance") +
+           (plan.bits == baked::Bits::kFour ? ", 4 bit" : "");
+  }
+
   void add_realis(const Plan& plan) {
-    const bool is_rgb = plan.channels == Channels::kRgb;
-    std::string name = "render + " +
-                       (plan.dominant > 0 ? std::to_string(plan.dominant) + " of " + std::to_string(plan.lobes)
-                                          : std::to_string(plan.lobes)) +
-                       " lobes " + (is_rgb ? "RGB" : "luminance");
+    const std::string name = name_of(plan);
     ask(0, name);
     std::vector<std::vector<Color>> exact(lights());
     double spent = 0;
     std::size_t numbers = 0, stored = 0;
     BakeOptions options;
     options.channels = plan.channels, options.dominant = plan.dominant, options.floor = options_.floor;
+    options.bits = plan.bits;
     Row& row = add(name, Family::kRealis, 0, [&](std::size_t left) {
       const Subject& s = folds_[fold_of(left)];
-      const Basis& lobes = basis(plan.lobes, fold_of(left));
+      const Basis functions = plan.is_mixed ? mixes(left).first(plan.count) : basis(plan.count, fold_of(left));
       const auto begin = Clock::now();
-      const Bake baked = bake_with(without(s, std::span(&left, 1)), lobes, options,
+      const Bake baked = bake_with(without(s, std::span(&left, 1)), functions, options,
                                    [](double, std::string_view) { return !files::interrupted(); });
       spent += seconds_since(begin);
       numbers = std::max(numbers, baked.kept * baked.channel_count());
@@ -330,10 +313,11 @@ class Worker {
       exact[left] = predicted(s, baked, left);
       return predicted(s, quantised(baked), left);
     });
-    row.exact = total(exact);
+    row.exact = errors_of(exact, subject(), study_.peak, study_.noise);
     row.bytes = stored + kRenderBytes;
     row.ns = ns_of(numbers);
-    row.bake_seconds = choosing_[plan.lobes] + spent / static_cast<double>(lights()) * of_all();
+    row.bake_seconds =
+        (plan.is_mixed ? choosing_mixes_ : choosing_[plan.count]) + spent / static_cast<double>(lights()) * of_all();
   }
 
   static std::vector<Color> predicted(const Subject& s, const baked::Bake& baked, std::size_t light) {
@@ -343,8 +327,8 @@ class Worker {
       const std::size_t at = s.samples_of(t) + light;
       const auto e = residual.at(t, static_cast<double>(s.cosine[at]));
       for (std::size_t c = 0; c < 3; ++c)
-        out[t][c] =
-            static_cast<float>(std::max(static_cast<double>(s.render[at][c]) + s.irradiance_of(light) * e[c], 0.0));
+        out[t][c] = std::max(static_cast<float>(static_cast<double>(s.render[at][c]) + s.irradiance_of(light) * e[c]),
+                             s.least_of(t, light, c));
     }
     return out;
   }
@@ -357,51 +341,11 @@ class Worker {
   std::vector<Subject> folds_;
   std::map<std::size_t, std::vector<Basis>> bases_;
   std::map<std::size_t, double> choosing_;
+  std::vector<std::optional<Mixes>> mixes_;  // without each light
+  double choosing_mixes_ = 0;
 };
 
 }  // namespace
-
-Subject without(const Subject& s, std::span<const std::size_t> lights) {
-  Subject out;
-  out.camera = s.camera, out.width = s.width, out.height = s.height, out.pixels = s.pixels;
-  std::vector<std::size_t> kept;
-  for (std::size_t i = 0; i < s.lights.size(); ++i) {
-    if (std::find(lights.begin(), lights.end(), i) != lights.end()) continue;
-    kept.push_back(i);
-    out.lights.push_back(s.lights[i]), out.to_lights.push_back(s.to_lights[i]);
-    if (!s.irradiance.empty()) out.irradiance.push_back(s.irradiance[i]);
-  }
-  for (std::size_t t = 0; t < s.texels(); ++t)
-    for (const std::size_t i : kept) {
-      const std::size_t at = s.samples_of(t) + i;
-      out.photo.push_back(s.photo[at]), out.render.push_back(s.render[at]);
-      out.cosine.push_back(s.cosine[at]), out.weight.push_back(s.weight[at]);
-    }
-  return out;
-}
-
-Subject on_grid(const Subject& s, int stride) {
-  Subject out;
-  out.camera = s.camera, out.width = s.width, out.height = s.height;
-  out.lights = s.lights, out.to_lights = s.to_lights, out.irradiance = s.irradiance;
-  for (std::size_t t = 0; t < s.texels(); ++t) {
-    const int x = static_cast<int>(s.pixels[t]) % s.width, y = static_cast<int>(s.pixels[t]) / s.width;
-    if (x % stride != stride / 2 || y % stride != stride / 2) continue;
-    out.pixels.push_back(s.pixels[t]);
-    for (std::size_t at = s.samples_of(t); at < s.samples_of(t + 1); ++at) {
-      out.photo.push_back(s.photo[at]), out.render.push_back(s.render[at]);
-      out.cosine.push_back(s.cosine[at]), out.weight.push_back(s.weight[at]);
-    }
-  }
-  return out;
-}
-
-Errors errors_of(std::span<const Color> predicted, std::span<const Color> photo, std::span<const float> weight,
-                 double peak, double noise) {
-  Sum sum(peak, noise);
-  sum.add(predicted, photo, weight);
-  return sum.errors();
-}
 
 const Row* winner_over(const Study& study, const Row& baseline) {
   const Row* best = nullptr;

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -70,6 +71,15 @@ Subject on_grid(const Subject& subject, int stride);
 
 Errors errors_of(std::span<const std::array<float, 3>> predicted, std::span<const std::array<float, 3>> photo,
                  std::span<const float> weight, double peak, double noise);
+
+// Of all lights of a subject, light by light.
+Errors errors_of(std::span<const std::vector<std::array<float, 3>>> predicted, const Subject& subject, double peak,
+                 double noise);
+// Samples of a light, texel by texel.
+std::vector<std::array<float, 3>> photo_of(const Subject& subject, std::size_t light);
+std::vector<float> weight_of(const Subject& subject, std::size_t light);
+// The value that `share` of the numbers are below; 0 of none.
+double quantile_of(std::vector<float> values, double share);
 
 // The row of Realis with the least stops_95 among those that take no more bytes than a baseline and are nearer in both
 // measures; absent: the baseline is not beaten.

@@ -22,23 +22,34 @@ struct Lobe {
   double sharpness = 1;      // >= 0
 };
 
-// The lobes that all texels of an asset share, in which a residual is written down (spec: Realis, Bake, 4).
+// The functions that all texels of an asset share, in which a residual is written down (spec: Realis, Bake, 4): lobes, or
+// sums of them.
 struct Basis {
   std::vector<Lobe> lobes;
   // What is known of a texel's coefficients before it was seen: their standard deviations about 0, in units of that of a
   // sample of weight 1. Ridge regression with 1 / spread^2: large ones are free, small ones are kept near 0.
   std::vector<double> spread;
+  // What a texel's coefficients are of: mixes of the lobes, mix by mix a factor for each. Empty: the lobes themselves.
+  std::vector<double> mix{};
+
+  // How many coefficients a texel and channel has.
+  std::size_t size() const { return mix.empty() ? lobes.size() : mix.size() / lobes.size(); }
 };
+
+// How a coefficient is stored. With four bits a nibble n says (|n - 8| / 7)^2 of its multiplier with the sign of n - 8,
+// since most coefficients are small; 0 says nothing was known there.
+enum class Bits : unsigned char { kEight, kFour };
 
 struct Bake {
   Basis basis;
   Channels channels = Channels::kLuminance;
   double floor = 0.4;               // what a cosine counts for at least
-  std::size_t kept = 0;             // lobes of each texel that are not 0
-  std::vector<float> coefficients;  // [1/sr] for irradiance 1: texel by texel, channel by channel, the lobes
+  std::size_t kept = 0;             // lobes or mixes of each texel that are not 0
+  std::vector<float> coefficients;  // [1/sr] for irradiance 1: texel by texel, channel by channel, those of the basis
+  Bits bits = Bits::kEight;         // four: of mixes that are all kept
 
   std::size_t channel_count() const { return channels == Channels::kRgb ? 3 : 1; }
-  bool is_sparse() const { return kept < basis.lobes.size(); }
+  bool is_sparse() const { return kept < basis.size(); }
 };
 
 // What the pixels of a bake are: those of a camera's picture, or texels of a mesh. Lobes of a picture stand in the world's
@@ -64,10 +75,16 @@ struct StoredBake {
 // What a texel costs, in bytes: coefficients, and lobes if they are told apart.
 std::size_t bytes_of_texel(const Bake& bake);
 
-// The bake as 8 bits hold it: what a reader of the pictures gets.
+// The bake as its bits hold it: what a reader of the pictures gets.
 Bake quantised(const Bake& bake);
 
-// The largest coefficient of each channel and lobe, channel by channel: what the byte 255 stands for.
+// What the largest byte stands for, channel by channel, the lobes or mixes: the largest coefficient; of four bits the one
+// that 1 in 200 is above, and those are clipped.
 std::vector<double> multipliers_of(const Bake& bake);
+
+// Bits::kFour, [1, 15].
+inline constexpr int kNibbleZero = 8;
+std::uint8_t nibble_of(double c, double multiplier);
+double from_nibble(std::uint8_t nibble, double multiplier);
 
 }  // namespace likeness::baked
