@@ -24,6 +24,7 @@
 #include "olat/import/command.h"
 #include "olat/render/command.h"
 #include "olat/view/command.h"
+#include "realis/ablation/command.h"
 #include "realis/command.h"
 #include "realis/export/command.h"
 #include "realis/report/command.h"
@@ -141,6 +142,7 @@ int main(int argc, char** argv) try {
   likeness::olat_view::add_view(olat, exit_code);
   CLI::App& realis = likeness::realis::add_realis(program, exit_code);
   likeness::realis::add_report(realis, exit_code);
+  likeness::realis::add_ablate(realis, exit_code);
   likeness::realis::add_export(realis, exit_code);
   program.footer(kFooter);  // last: a subcommand made after it would repeat it
 

@@ -7,9 +7,9 @@ namespace likeness::realis::weight {
 // Falls where a highlight is left in the photograph that the render lacks. The residual over the light received rises towards
 // the mirror direction of the normal: its median over texels and lights in rings of 5 degrees of the half angle, above that of
 // 45 degrees and more. If the first three rings do not rise above `significance` deviations of the rest, and above a hundredth
-// of what the photographs show, there is no such light and the weight is 1. Within the rings that do, a sample weighs
-// 1 / (1 + (x / t)^2), x its excess over the median of its texel's other lights beyond 45 degrees, t a fiftieth of the
-// rise at the peak or the noise. Normals and views have to be known.
+// of what the photographs show, there is no such light and the weight is 1. Within the rings that rise by half of t, a sample weighs
+// 1 / (1 + (x / t)^2), x its excess over the median of its texel's other lights beyond 45 degrees, t half a deviation or that
+// hundredth. Normals and views have to be known.
 //
 // Off unless asked for: a bake that is seen from its own camera may keep its highlights.
 struct SpecularSettings {
