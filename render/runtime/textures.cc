@@ -79,7 +79,8 @@ Pass texture_pass(const plan::Plan& plan) {
 }
 
 // The dominant lobes of the texels, or some drawn by pixel and frame.
-static void restore_residual(const Context& context, std::size_t pixel, float weight, surface::Point& point) {
+[[gnu::noinline, gnu::cold]] static void restore_residual(const Context& context, std::size_t pixel, float weight,
+                                                          surface::Point& point) {
   surface::bind_residual(context.world.surfaces.turn(context.frame.hits[pixel].instance), weight, point);
   surface::ResidualAt& at = point.residual;
   if (point.bound.bumps > 0) at.plain = &point.material->plain_distant_kernel;
@@ -110,7 +111,8 @@ void restore(const Context& context, std::size_t pixel, surface::Point& point) {
       std::memcpy(point.scratch.bytes.data() + place * sizeof(float), numbers++, sizeof(float));
     point.bound.model = &point.scratch;
   }
-  if (material.bake != nullptr) restore_residual(context, pixel, *numbers, point);
+  if (material.bake != nullptr) [[unlikely]]
+    restore_residual(context, pixel, *numbers, point);
   if (material.has_dual_normals()) {
     point.bound.diffuse_normal = context.frame.dual_cells[pixel].diffuse_normal;
     point.bound.specular_normal = context.frame.dual_cells[pixel].specular_normal;

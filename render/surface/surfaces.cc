@@ -230,41 +230,6 @@ void Surfaces::over(const ray::Ray& ray, const ray::Hit& hit, const Pixel& pixel
     add_residual(hit.surface, p);
 }
 
-void bind_residual(const glm::mat3& model_from_world, float weight, Point& p) {
-  ResidualAt& at = p.residual;
-  at.bake = p.material->bake, at.plain = &p.material->plain_kernel, at.weight = weight;
-  at.normal = p.frame.local(p.normal);
-  at.model_from_local = model_from_world * glm::mat3(p.frame.x, p.frame.y, p.frame.z);
-  at.groups = static_cast<std::uint32_t>(at.bake->groups);
-  at.place(p.uv, 0, glm::vec2(0));
-  p.bound.residual = &at;
-}
-
-// The back of a surface was not photographed. Of a roughness that bumps changed the material's own is compared.
-void Surfaces::add_residual(scene::Index instance, Point& p) const {
-  const Prepared& material = *p.material;
-  const scene::Material::BakedResidual& baked = *material.material->residual;
-  bind_residual(turns_[instance], p.is_back ? 0 : baked.strength, p);
-  if (!baked.fade || p.is_back) return;
-  const auto number = [&](const void* model, std::size_t place) {
-    float x;
-    std::memcpy(&x, static_cast<const std::byte*>(model) + place * sizeof x, sizeof x);
-    return x;
-  };
-  glm::vec3 color(0);
-  float roughness = 0;
-  const bool has_color = material.base_color_at != kNoPlace, has_roughness = material.roughness_at != kNoPlace;
-  if (has_color)
-    for (std::size_t k = 0; k < 3; ++k) color[static_cast<int>(k)] = number(p.bound.model, material.base_color_at + k);
-  if (has_roughness) {
-    const bool varies = std::any_of(material.slots.begin(), material.slots.end(),
-                                    [&](const Prepared::Slot& slot) { return slot.at == material.roughness_at; });
-    roughness = number(varies ? p.bound.model : &material.model, material.roughness_at);
-  }
-  p.residual.weight *= faded(p.residual, *baked.fade, has_color ? &color : nullptr,
-                             has_roughness ? &roughness : nullptr, turns_[instance] * p.shading_normal);
-}
-
 template void Surfaces::at<Detail::kShape>(const ray::Ray&, const ray::Hit&, Point&) const;
 template void Surfaces::at<Detail::kNone>(const ray::Ray&, const ray::Hit&, Point&) const;
 template void Surfaces::at<Detail::kTextures>(const ray::Ray&, const ray::Hit&, Point&) const;

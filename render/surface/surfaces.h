@@ -102,7 +102,7 @@ class Surfaces {
   template <class Textures>
   void dress(const ray::Hit& hit, glm::vec3 normal, const glm::vec3& to_view, Textures&& textures, Point& point) const;
 
-  void add_residual(scene::Index instance, Point& point) const;
+  [[gnu::noinline, gnu::cold]] void add_residual(scene::Index instance, Point& point) const;
 
   std::vector<Placed> placed_;
   std::vector<glm::mat3> turns_;
