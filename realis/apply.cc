@@ -149,8 +149,14 @@ Relit relight(const capture::Capture& capture, const StoredBake& stored, const c
         residual[3 * pixel + c] += added[c] * beams[i].irradiance[static_cast<int>(c)];
     }
   }
+  // No less than the surroundings give back.
+  glm::dvec3 received(0);
+  for (const Beam& beam : beams) received += beam.irradiance;
+  const glm::dvec3 least = surface.least * surface.exposure / std::numbers::pi * received;
   for (std::size_t k = 0; k < residual.size(); ++k)
-    out.realis.rgb[k] = static_cast<float>(std::max(static_cast<double>(out.render.rgb[k]) + residual[k], 0.0));
+    out.realis.rgb[k] =
+        static_cast<float>(std::max(static_cast<double>(out.render.rgb[k]) + residual[k],
+                                    static_cast<double>(surface.base_colors.rgb[k]) * least[static_cast<int>(k % 3)]));
   return out;
 }
 

@@ -9,6 +9,7 @@
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
+#include "realis/mixes.h"
 #include "realis/solve.h"
 #include "render/files/interrupt.h"
 
@@ -67,6 +68,10 @@ Sampled sampled_of(const Subject& s, std::uint64_t seed, bool by_stops) {
 
 Bake bake(const Subject& subject, const BakeOptions& options, const GoesOn& goes_on) {
   if (options.is_exact) return bake_with(subject, exact_basis(subject.to_lights), options, goes_on);
+  if (options.mixes > 0) {
+    const Mixes mixes(subject, prior_of(subject.to_lights), options.floor, options.seed);
+    return bake_with(subject, mixes.first(options.mixes), options, goes_on);
+  }
   std::vector<Choice> choices;
   std::size_t chosen = 0;
   const Sampled sampled = sampled_of(subject, options.seed, options.by_stops);

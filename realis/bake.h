@@ -18,6 +18,7 @@ struct BakeOptions {
   Channels channels = Channels::kLuminance;
   std::size_t lobes = 0;        // 0: as many as held-out lights ask for
   std::size_t most_lobes = 96;  // of that search
+  std::size_t mixes = 0;        // coefficients of that many mixes (mixes.h) instead of lobes; 0: of lobes
   std::size_t dominant = 0;     // lobes that a texel keeps; 0: all
   bool is_exact = false;        // as many lobes as lights, free: photographs come back as they were
   // What a cosine counts for at least where E = photo - render is divided by it. Without it nothing could be said of

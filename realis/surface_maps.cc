@@ -6,12 +6,13 @@ namespace likeness::realis {
 namespace {
 
 baked::Surface surface_of(const capture_fit::Fit& fit) {
-  return {fit.normals, fit.base_colors, fit.material, fit.exposure};
+  return {fit.normals, fit.base_colors, fit.material, fit.exposure, fit.spread, fit.least};
 }
 
 void put(baked::Surface surface, capture_fit::Fit& fit) {
   fit.normals = std::move(surface.normals), fit.base_colors = std::move(surface.base_colors);
   fit.material = surface.material, fit.exposure = surface.exposure;
+  fit.spread = surface.spread, fit.least = surface.least;
 }
 
 }  // namespace

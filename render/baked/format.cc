@@ -19,6 +19,13 @@ constexpr std::array kLobeKeys{
 };
 constexpr json::Section kLobeSection{"lobe", "A windowed spherical Gaussian that all texels share.", kLobeKeys};
 constexpr std::array<const json::Section*, 1> kLobeOnly{&kLobeSection};
+constexpr std::array kMixKeys{
+    Key{.name = "spread", .form = Form::kNumber, .range = {0, 1e12}, .required = true, .text = "as that of a lobe"},
+    Key{.name = "multiplier", .form = Form::kNumbers, .range = {0, 1e12}, .unit = "1/sr", .required = true, .text = "coefficient that the largest byte stands for, of each channel"},
+    Key{.name = "factors", .form = Form::kNumbers, .range = {-1e12, 1e12}, .required = true, .text = "of each lobe, in their order"},
+};
+constexpr json::Section kMixSection{"mix", "A sum of lobes that all texels share.", kMixKeys};
+constexpr std::array<const json::Section*, 1> kMixOnly{&kMixSection};
 constexpr std::array kMetricKeys{
     Key{.name = "name", .form = Form::kText, .required = true, .text = "of the number"},
     Key{.name = "value", .form = Form::kNumber, .range = {-1e300, 1e300}, .required = true, .text = "what was measured"},
@@ -42,6 +49,7 @@ constexpr std::array kBakeKeys{
     Key{.name = "floor", .form = Form::kNumber, .range = {0, 1}, .above = true, .required = true, .text = "what the cosine of light and normal counts for at least, when a residual is multiplied by it"},
     Key{.name = "kept", .form = Form::kWhole, .range = {0, kMostLobes}, .required = true, .text = "lobes of each texel that are not 0"},
     Key{.name = "lobes", .form = Form::kList, .required = true, .sections = kLobeOnly, .text = "shared by all texels"},
+    Key{.name = "mixes", .form = Form::kList, .sections = kMixOnly, .text = "what coefficients are of, instead of the lobes themselves, whose spread and multiplier are 0 then"},
     Key{.name = "inputs", .form = Form::kNames, .text = "files that were read, and their SHA-256"},
     Key{.name = "metrics", .form = Form::kList, .sections = kMetricOnly, .text = "what the bake measured of itself"},
 };

@@ -71,14 +71,16 @@ void unpack_floats(const Planes& planes, StoredBake& out) {
 
 void unpack_bytes(const Planes& planes, const std::vector<double>& multipliers, StoredBake& out) {
   Bake& bake = out.bake;
-  const std::size_t lobes = bake.basis.lobes.size(), each = multipliers.size();
+  const std::size_t lobes = bake.basis.size(), each = multipliers.size();
   for (std::size_t texel = 0; texel < out.pixels.size(); ++texel)
     for (std::size_t plane = 0; plane < planes.coefficients.size(); ++plane) {
       const std::size_t pixel = out.pixels[texel], slot = plane % bake.kept;
       const std::size_t at =
           plane / bake.kept * lobes + (planes.lobes.empty() ? slot : std::size_t{planes.lobes[slot][pixel]});
+      const std::uint8_t byte = planes.coefficients[plane][pixel];
       bake.coefficients[texel * each + at] =
-          static_cast<float>(brdf::decoded(static_cast<double>(planes.coefficients[plane][pixel]), multipliers[at]));
+          static_cast<float>(bake.bits == Bits::kFour ? from_nibble(byte, multipliers[at])
+                                                      : brdf::decoded(static_cast<double>(byte), multipliers[at]));
     }
 }
 
@@ -113,10 +115,30 @@ Header parse_header(std::string_view text, const std::string& source) {
                                        std::to_string(channels) + ", one a channel");
     for (std::size_t c = 0; c < channels; ++c) out.multipliers[c * rows.size() + k] = each[c];
   }
+  if (fields.text("storage") == kStorages[2]) bake.bits = Bits::kFour;
+  const std::vector<json::Fields> mixes = fields.list("mixes");
+  if (mixes.size() > kMostLobes)
+    fields.refuse("mixes", " are " + std::to_string(mixes.size()) + "; expected at most " + std::to_string(kMostLobes));
+  if (!mixes.empty()) {
+    bake.basis.spread.clear();
+    out.multipliers.resize(channels * mixes.size());
+  }
+  for (std::size_t k = 0; k < mixes.size(); ++k) {
+    bake.basis.spread.push_back(mixes[k].number("spread"));
+    const std::vector<double> each = mixes[k].numbers("multiplier"), factors = mixes[k].numbers("factors");
+    if (each.size() != channels || factors.size() != rows.size())
+      mixes[k].refuse("factors", ": a mix has a multiplier a channel (" + std::to_string(channels) +
+                                     ") and a factor a lobe (" + std::to_string(rows.size()) + ")");
+    for (std::size_t c = 0; c < channels; ++c) out.multipliers[c * mixes.size() + k] = each[c];
+    bake.basis.mix.insert(bake.basis.mix.end(), factors.begin(), factors.end());
+  }
   bake.kept = static_cast<std::size_t>(fields.whole("kept"));
-  if (bake.kept > rows.size())
+  if (bake.bits == Bits::kFour && bake.kept != bake.basis.size())
+    fields.refuse("kept", " = " + std::to_string(bake.kept) + "; with 4 bit all are kept (" +
+                              std::to_string(bake.basis.size()) + ")");
+  if (bake.kept > bake.basis.size())
     fields.refuse("kept", " = " + std::to_string(bake.kept) + " is more than there are lobes (" +
-                              std::to_string(rows.size()) + ")");
+                              std::to_string(bake.basis.size()) + ")");
   for (const json::Fields& row : fields.list("metrics"))
     out.about.metrics.emplace_back(row.text("name"), row.number("value"));
   refuse_sizes(fields, out);
@@ -129,10 +151,19 @@ Planes read_planes(const std::filesystem::path& folder, const Header& header, co
     if (!header.multipliers.empty()) out.floats = read_floats(folder / kFloats, header, access);
     return out;
   }
+  if (header.bake.bits == Bits::kFour) {
+    const std::vector<Bytes> pairs = read_bytes(folder, "coefficients", header, (header.planes() + 1) / 2, access);
+    for (std::size_t plane = 0; plane < header.planes(); ++plane) {
+      Bytes nibbles = pairs[plane / 2];
+      for (std::uint8_t& byte : nibbles) byte = plane % 2 == 0 ? byte >> 4 : byte & 0x0f;
+      out.coefficients.push_back(std::move(nibbles));
+    }
+    return out;
+  }
   out.coefficients = read_bytes(folder, "coefficients", header, header.planes(), access);
   if (!header.bake.is_sparse()) return out;
   out.lobes = read_bytes(folder, "lobes", header, header.bake.kept, access);
-  const std::size_t lobes = header.bake.basis.lobes.size();
+  const std::size_t lobes = header.bake.basis.size();
   for (std::size_t k = 0; k < out.lobes.size(); ++k)
     for (std::size_t pixel = 0; pixel < out.lobes[k].size(); ++pixel)
       if (out.coefficients[0][pixel] != 0 && out.lobes[k][pixel] >= lobes)

@@ -73,6 +73,9 @@ std::size_t Residual::bytes() const {
 Residual read_residual(const std::filesystem::path& folder, const Access& access) {
   const std::filesystem::path file = folder / kBakeFile;
   const Header header = parse_header(access.bytes(file, kMostBakeBytes), file.string());
+  if (!header.bake.basis.mix.empty())
+    throw files::InputError(file.string() +
+                            ": its coefficients are of mixes, which renderers do not read; bake it with --lobes");
   Residual out;
   out.name = folder.lexically_normal().string();
   out.width = header.width, out.height = header.height;

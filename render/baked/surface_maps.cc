@@ -30,6 +30,11 @@ constexpr std::array kKeys{
         .above = true,
         .required = true,
         .text = "photo over what the material returns of a unit light"},
+    Key{.name = "spread", .form = Form::kNumber, .range = {0, 1}, .text = "of cosines within a pixel"},
+    Key{.name = "least",
+        .form = Form::kNumber,
+        .range = {0, 1},
+        .text = "light, over what a texel that faces it returns"},
 };
 constexpr json::Section kSection{"surface", "What a bake's renders were made of.", kKeys};
 
@@ -99,6 +104,7 @@ Surface read_surface(const std::filesystem::path& folder, const Access& access) 
   const json::Fields fields(source, value, kSection, "");
   Surface out;
   out.exposure = fields.number("exposure");
+  out.spread = fields.number("spread"), out.least = fields.number("least");
   const std::filesystem::path file = folder / kMaterial;
   const material::Material read = material::material_of(access.bytes(file, material::kLargestFile), file.string());
   const auto* callisto = std::get_if<brdf::Callisto<double>>(&read.brdf);

@@ -12,7 +12,7 @@
 //
 //     normal.png       8 bit: (b - 128) / 127, then made unit; (128, 128, 128): none
 //     base_color.png   8 bit, sRGB curve, of base_color / scale
-//     surface.json     scale, exposure
+//     surface.json     scale, exposure, spread, least
 //     surface.material.json
 namespace likeness::baked {
 
@@ -21,6 +21,9 @@ struct Surface {
   image::Picture base_colors;  // linear, >= 0
   brdf::Callisto<double> material;
   double exposure = 1;  // photo over what the material returns of a unit light
+  // How cosines are spread within a pixel, and the least light, over what the diffuse part returns of a light that it faces
+  // (capture_fit::Fit).
+  double spread = 0, least = 0;
 };
 
 // The surface's two pictures as they are stored.

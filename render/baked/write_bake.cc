@@ -57,7 +57,7 @@ std::vector<std::uint8_t> kept_lobes(std::span<const float> coefficients, std::s
 
 void write_bake(const std::filesystem::path& folder, const StoredBake& stored, bool is_float) {
   const Bake& bake = stored.bake;
-  const std::size_t lobes = bake.basis.lobes.size(), channels = bake.channel_count(), each = channels * lobes;
+  const std::size_t lobes = bake.basis.size(), channels = bake.channel_count(), each = channels * lobes;
   std::vector<std::vector<std::uint8_t>> kept(bake.is_sparse() ? stored.pixels.size() : 0);
   for (std::size_t texel = 0; texel < kept.size(); ++texel)
     kept[texel] = kept_lobes(std::span(bake.coefficients).subspan(texel * each, each), channels, bake.kept);
@@ -83,7 +83,8 @@ void write_bake(const std::filesystem::path& folder, const StoredBake& stored, b
 void write_bake(const std::filesystem::path& folder, const StoredBake& stored, const PlaneSource& source,
                 bool is_float) {
   const Bake& bake = stored.bake;
-  const std::size_t lobes = bake.basis.lobes.size(), channels = bake.channel_count(), each = channels * lobes;
+  const std::size_t lobes = bake.basis.size(), channels = bake.channel_count(), each = channels * lobes;
+  const bool is_four = bake.bits == Bits::kFour && !is_float;
   const std::vector<double>& multipliers = source.multipliers;
   std::filesystem::create_directories(folder);
   std::filesystem::remove(folder / kBakeFile);  // a bake without it is none: whoever reads meanwhile is told so
@@ -105,7 +106,25 @@ void write_bake(const std::filesystem::path& folder, const StoredBake& stored, c
         layers.layers[bake.is_sparse() ? plane / bake.kept * lobes + of[texel] : plane].data[stored.pixels[texel]] =
             values[texel];
     }
-    image::write_layers(folder / kFloats, layers);
+    if (!layers.layers.empty()) image::write_layers(folder / kFloats, layers);
+  } else if (is_four) {
+    // Two a byte, the first in its upper half; below a last one that is alone is the nibble of 0.
+    const auto nibbles_of = [&](std::size_t plane) {
+      const std::vector<float> values = source.coefficients(plane);
+      std::vector<std::uint8_t> out(values.size());
+      for (std::size_t texel = 0; texel < out.size(); ++texel)
+        out[texel] = nibble_of(static_cast<double>(values[texel]), multipliers[plane]);
+      return out;
+    };
+    write_planes(folder, "coefficients", stored, (each + 1) / 2, [&](std::size_t pair) {
+      std::vector<std::uint8_t> out = nibbles_of(2 * pair);
+      for (std::uint8_t& byte : out) byte = static_cast<std::uint8_t>(byte << 4 | kNibbleZero);
+      if (2 * pair + 1 == each) return out;
+      const std::vector<std::uint8_t> lower = nibbles_of(2 * pair + 1);
+      for (std::size_t texel = 0; texel < out.size(); ++texel)
+        out[texel] = static_cast<std::uint8_t>((out[texel] & 0xf0) | lower[texel]);
+      return out;
+    });
   } else {
     if (bake.is_sparse()) write_planes(folder, "lobes", stored, bake.kept, source.lobes);
     write_planes(folder, "coefficients", stored, channels * bake.kept, [&](std::size_t plane) {
@@ -129,16 +148,25 @@ void write_bake(const std::filesystem::path& folder, const StoredBake& stored, c
   }
   out["width"] = stored.width, out["height"] = stored.height;
   out["channels"] = kChannels[static_cast<std::size_t>(bake.channels)];
-  out["storage"] = kStorages[is_float ? 1 : 0];
+  out["storage"] = kStorages[is_float ? 1 : is_four ? 2 : 0];
   out["floor"] = bake.floor, out["kept"] = bake.kept;
   Json& rows = out["lobes"] = Json::array();
-  for (std::size_t k = 0; k < lobes; ++k) {
+  const bool is_mixed = !bake.basis.mix.empty();
+  for (std::size_t k = 0; k < bake.basis.lobes.size(); ++k) {
     const Lobe& lobe = bake.basis.lobes[k];
     Json row;
     row["axis"] = {lobe.axis.x, lobe.axis.y, lobe.axis.z}, row["sharpness"] = lobe.sharpness;
+    row["spread"] = is_mixed ? 0 : bake.basis.spread[k];
+    for (std::size_t c = 0; c < channels; ++c) row["multiplier"].push_back(is_mixed ? 0 : multipliers[c * lobes + k]);
+    rows.push_back(std::move(row));
+  }
+  for (std::size_t k = 0; is_mixed && k < lobes; ++k) {
+    Json row;
     row["spread"] = bake.basis.spread[k];
     for (std::size_t c = 0; c < channels; ++c) row["multiplier"].push_back(multipliers[c * lobes + k]);
-    rows.push_back(std::move(row));
+    const auto factors = bake.basis.mix.begin() + static_cast<std::ptrdiff_t>(k * bake.basis.lobes.size());
+    row["factors"] = std::vector<double>(factors, factors + static_cast<std::ptrdiff_t>(bake.basis.lobes.size()));
+    out["mixes"].push_back(std::move(row));
   }
   Json& inputs = out["inputs"] = Json::object();
   for (const auto& [file, hash] : stored.about.inputs) inputs[file] = hash;
