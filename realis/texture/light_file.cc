@@ -17,8 +17,8 @@ std::string_view bytes_of(std::span<const float> values) {
 
 }  // namespace
 
-std::size_t bytes_of_light(std::size_t texels, std::size_t channels, std::size_t photos) {
-  return sizeof(float) * (texels * (1 + channels) + photos);
+std::size_t bytes_of_light(std::size_t texels, std::size_t channels, std::size_t candidates) {
+  return sizeof(float) * (texels * (1 + channels) + 3 * candidates);
 }
 
 void write_light(const std::filesystem::path& file, const std::string& digest, const LightSamples& samples) {
@@ -31,12 +31,13 @@ void write_light(const std::filesystem::path& file, const std::string& digest, c
   const std::string header = text.str();
   files::WholeFile out(file);
   out.append(std::to_string(header.size()) + "\n" + header);
-  out.append(bytes_of(samples.weights)), out.append(bytes_of(samples.residuals)), out.append(bytes_of(samples.photos));
+  out.append(bytes_of(samples.weights)), out.append(bytes_of(samples.residuals)),
+      out.append(bytes_of(samples.candidates));
   out.commit();
 }
 
 std::optional<LightFile> LightFile::open(const std::filesystem::path& file, const std::string& digest,
-                                         std::size_t texels, std::size_t channels, std::size_t photos) {
+                                         std::size_t texels, std::size_t channels, std::size_t candidates) {
   std::ifstream in(file, std::ios::binary);
   std::string line;
   if (!std::getline(in, line) || line.empty() || line.size() > 8 ||
@@ -48,9 +49,9 @@ std::optional<LightFile> LightFile::open(const std::filesystem::path& file, cons
   if (!in.read(header.data(), static_cast<std::streamsize>(length))) return {};
   LightFile out;
   out.file_ = file, out.begin_ = line.size() + 1 + length;
-  out.texels_ = texels, out.channels_ = channels, out.photos_ = photos;
+  out.texels_ = texels, out.channels_ = channels, out.candidates_ = candidates;
   std::error_code error;
-  if (std::filesystem::file_size(file, error) != out.begin_ + bytes_of_light(texels, channels, photos) || error)
+  if (std::filesystem::file_size(file, error) != out.begin_ + bytes_of_light(texels, channels, candidates) || error)
     return {};
   std::istringstream text(header);
   std::string first, of;
@@ -72,8 +73,8 @@ void LightFile::read(std::size_t first, std::span<float> weights, std::span<floa
     read_floats(file_, begin_ + sizeof(float) * ((1 + c) * texels_ + first), residuals.subspan(c * count, count));
 }
 
-std::vector<float> LightFile::photos() const {
-  std::vector<float> out(photos_);
+std::vector<float> LightFile::candidates() const {
+  std::vector<float> out(3 * candidates_);
   read_floats(file_, begin_ + sizeof(float) * (1 + channels_) * texels_, out);
   return out;
 }

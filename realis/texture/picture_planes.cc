@@ -37,18 +37,25 @@ Received received_of(const capture::Light& light, const PictureSurface& picture,
   return {glm::dot(glm::dvec3(picture.normals[i]), shine.to_light), shine.irradiance};
 }
 
-std::size_t frame_of(const capture::Capture& capture, std::size_t camera, std::size_t light) {
-  return capture::FrameTable(capture).frame(camera, light);
-}
-
 }  // namespace
 
+weight::Choice streamed(weight::Choice choice, std::vector<std::string>& left_out) {
+  for (std::size_t i = 0; i < weight::kWeights.size(); ++i)
+    if (choice.is_on[i] && std::find(kStreamedWeights.begin(), kStreamedWeights.end(), weight::kWeights[i].name) ==
+                               kStreamedWeights.end()) {
+      choice.is_on[i] = false;
+      left_out.emplace_back(weight::kWeights[i].name);
+    }
+  return choice;
+}
+
 void must_stream(const weight::Choice& choice) {
-  for (const char* name : {"foreign", "specular"})
-    if (choice.is_on[weight::weight_named(name)])
-      throw files::UsageError(std::string("--with ") + name +
-                              " compares all lights of a picture at once, and a mesh is baked light by light; leave it "
-                              "out, or bake a camera's picture without --scene");
+  std::vector<std::string> others;
+  streamed(choice, others);
+  if (!others.empty())
+    throw files::UsageError("--with " + others[0] +
+                            " compares all pictures of a camera at once, and a mesh is baked light by light; leave it "
+                            "out, or bake a camera's picture without --scene");
 }
 
 LitLevels lit_levels(const capture::Capture& capture, const capture::Variant& variant, std::size_t camera,
@@ -97,10 +104,10 @@ LitLevels lit_levels(const capture::Capture& capture, const capture::Variant& va
   return out;
 }
 
-PicturePlanes planes_of(const capture::Capture& capture, const capture::Variant& variant, std::size_t camera,
-                        std::size_t light, const capture::CameraLayers& layers, const PictureSurface& picture,
-                        const LitLevels& lit, const weight::Choice& choice, Channels channels, LightCensus& census) {
-  const std::size_t frame = frame_of(capture, camera, light);
+PicturePlanes planes_of(const capture::Capture& capture, const capture::Variant& variant, std::size_t frame,
+                        const capture::CameraLayers& layers, const PictureSurface& picture, const LitLevels& lit,
+                        const weight::Choice& choice, Channels channels, LightCensus& census) {
+  const std::size_t camera = capture.frames[frame].camera, light = capture.frames[frame].light;
   PicturePlanes out;
   out.width = capture.cameras[camera].width, out.height = capture.cameras[camera].height;
   out.channels = channels == Channels::kRgb ? 3 : 1;
@@ -126,10 +133,8 @@ PicturePlanes planes_of(const capture::Capture& capture, const capture::Variant&
   const glm::dvec3 anywhere(0, 0, 1);
   samples.width = out.width, samples.height = out.height, samples.pixels = picture.pixels;
   samples.to_lights = std::span(&anywhere, 1), samples.photo = photos, samples.render = renders;
-  for (const char* name : {"clipped", "black"}) {
-    const std::size_t row = weight::weight_named(name);
-    if (!choice.is_on[row]) continue;
-    const weight::Weights w = weight::kWeights[row].make(samples, choice.settings);
+  if (choice.is_on[weight::weight_named("clipped")]) {
+    const weight::Weights w = weight::clipped(samples, choice.settings.clipped);
     for (std::size_t p = 0; p < pixels; ++p) weights[p] *= w[p];
   }
 

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "realis/bake.h"
@@ -34,10 +35,11 @@ struct PicturePlanes {
   std::vector<float> photo;     // luminance
 };
 
-// Weights of sensor and shadow are of the picture, and are in `weight`. Counts what it meets in `census`.
-PicturePlanes planes_of(const capture::Capture& capture, const capture::Variant& variant, std::size_t camera,
-                        std::size_t light, const capture::CameraLayers& layers, const PictureSurface& picture,
-                        const LitLevels& lit, const weight::Choice& choice, Channels channels, LightCensus& census);
+// Of a frame under one light. Weights of sensor and shadow are of the picture, and are in `weight`. Counts what it meets in
+// `census`.
+PicturePlanes planes_of(const capture::Capture& capture, const capture::Variant& variant, std::size_t frame,
+                        const capture::CameraLayers& layers, const PictureSurface& picture, const LitLevels& lit,
+                        const weight::Choice& choice, Channels channels, LightCensus& census);
 
 // What a texel sees: the mean over the pixels under it (at most 8 x 8 bilinear looks) by their weights. Pixels of weight 0
 // do not count, whatever they hold.
@@ -48,7 +50,11 @@ struct Look {
 };
 Look look_at(const PicturePlanes& planes, const Seen& seen);
 
-// Throws files::UsageError for weights that need all pictures of a camera at once.
+// The weights that a mesh, which is baked light by light, can have; the others need all pictures of a camera at once.
+inline constexpr std::array<std::string_view, 5> kStreamedWeights{"stretch", "shadow", "clipped", "mask", "cosine"};
+// The choice without the others; their names are appended to `left_out`.
+weight::Choice streamed(weight::Choice choice, std::vector<std::string>& left_out);
+// Throws files::UsageError if one of them is on.
 void must_stream(const weight::Choice& choice);
 
 }  // namespace likeness::realis

@@ -5,18 +5,18 @@
 #include <cstring>
 
 #include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
 
 #include "render/baked/surface_maps.h"
 #include "render/image/write.h"
+#include "render/surface/residual.h"
 
 namespace likeness::realis {
 
 void write_property_maps(const world::World& world, scene::Index instance, const Unwrapped& unwrapped,
                          const std::filesystem::path& folder) {
   const surface::Prepared& material = world.materials[world.scene.instances[instance].material];
-  // Normals turn by the transpose of what places turn by.
-  const glm::mat3 object_from_world = glm::transpose(glm::mat3(world.scene.instances[instance].world_from_object));
+  const glm::mat3 model_from_world =
+      surface::model_from_world(glm::mat3(world.scene.instances[instance].world_from_object));
   baked::Surface out;
   out.normals = image::Picture(unwrapped.size, unwrapped.size);
   out.base_colors = image::Picture(unwrapped.size, unwrapped.size);
@@ -24,7 +24,7 @@ void write_property_maps(const world::World& world, scene::Index instance, const
   const bool has_roughness = material.roughness_at != surface::kNoPlace;
   over_texels(world, instance, unwrapped, [&](std::size_t t, const surface::Point& point) {
     const std::size_t pixel = unwrapped.pixels[t];
-    const glm::vec3 normal = glm::normalize(object_from_world * point.shading_normal);
+    const glm::vec3 normal = glm::normalize(model_from_world * point.shading_normal);
     const glm::vec3 color = material.kernel.base_color(point.bound);
     float rough = 0;
     if (has_roughness)

@@ -24,7 +24,7 @@ namespace {
 struct Layout {
   std::size_t largest, count, known, coefficients, lobes, end;
   Layout(const TileSolve& s, std::size_t tile) {
-    largest = s.channel_count() * s.basis.lobes.size(), count = s.count_of(tile);
+    largest = s.channel_count() * s.basis.size(), count = s.count_of(tile);
     known = 64 + sizeof(double) * (4 + largest);
     coefficients = known + (count + 3) / 4 * 4;
     lobes = coefficients + sizeof(float) * count * s.planes();
@@ -69,7 +69,7 @@ TileSums solve_tile(const TileSolve& s, std::size_t tile, const std::filesystem:
     if (const std::string head = read_bytes(file, 0, layout.known); head.substr(0, 64) == s.digest)
       return sums_of(head);
 
-  const std::size_t lights = s.lights.size(), lobes = s.basis.lobes.size(), channels = s.channel_count();
+  const std::size_t lights = s.lights.size(), lobes = s.basis.size(), channels = s.channel_count();
   const std::size_t count = layout.count, first = tile * kTileTexels;
   std::vector<float> weights(lights * count), residuals(lights * channels * count);
   for (std::size_t i = 0; i < lights; ++i)
@@ -89,7 +89,7 @@ TileSums solve_tile(const TileSolve& s, std::size_t tile, const std::filesystem:
     for (std::size_t i = 0; i < lights; ++i)
       w.directions[i] =
           glm::normalize(s.model_from_world * capture::shine_of(s.capture.lights[s.lights[i]], glm::dvec3(0)).to_light);
-    w.solver.aim(w.directions), w.values = values(s.basis.lobes, w.directions);
+    w.solver.aim(w.directions), w.values = values(s.basis, w.directions);
     return w;
   });
 
@@ -118,7 +118,7 @@ TileSums solve_tile(const TileSolve& s, std::size_t tile, const std::filesystem:
         known[t] = 1;
       }
       if (known[t] == 0 || lobes == 0) continue;
-      if (is_near) w.solver.aim(w.directions), w.values = values(s.basis.lobes, w.directions);
+      if (is_near) w.solver.aim(w.directions), w.values = values(s.basis, w.directions);
       w.solver.solve_kept(s.kept, w.weights, w.residuals, w.coefficients);
       for (std::size_t k = 0; k < lobes * channels; ++k)
         coefficients[t * lobes * channels + k] = static_cast<float>(w.coefficients[k]);

@@ -36,7 +36,7 @@ struct TileSolve {
   std::size_t planes() const { return channel_count() * kept; }
   std::size_t tiles() const { return (texels() + kTileTexels - 1) / kTileTexels; }
   std::size_t count_of(std::size_t tile) const { return std::min(kTileTexels, texels() - tile * kTileTexels); }
-  bool is_sparse() const { return kept < basis.lobes.size(); }
+  bool is_sparse() const { return kept < basis.size(); }
 };
 
 // What a tile says of itself.
