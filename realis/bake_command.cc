@@ -19,6 +19,7 @@
 #include "realis/noticed.h"
 #include "realis/summary.h"
 #include "realis/surface_maps.h"
+#include "realis/terminator.h"
 #include "realis/texture/picture_planes.h"
 #include "realis/texture/texture_bake.h"
 #include "realis/texture/unwrap.h"
@@ -38,7 +39,7 @@ using files::UsageError;
 struct Request {
   std::string capture, camera, variant, lobes = "auto", name = "bake", out, result = "realis";
   std::string scene, object;
-  int dominant = 0, resolution = TextureBakeOptions{}.resolution;
+  int dominant = 0, mixes = 0, bits = 8, resolution = TextureBakeOptions{}.resolution;
   bool is_rgb = false, is_exact = false, is_float = false, has_layers = false, is_json = false;
   double floor = 0.4, seed = 1;
   std::vector<std::string> only, with, without;  // weights
@@ -64,6 +65,13 @@ BakeOptions options_of(const Request& request) {
                        std::to_string(kMostLobes));
     options.lobes = static_cast<std::size_t>(value);
   }
+  options.mixes = static_cast<std::size_t>(request.mixes);
+  options.bits = request.bits == 4 ? baked::Bits::kFour : baked::Bits::kEight;
+  if (options.mixes > 0 &&
+      (request.lobes != "auto" || request.dominant > 0 || request.is_exact || !request.scene.empty()))
+    throw UsageError(
+        "--mixes makes its own functions of lobes, in a picture; leave --lobes, --dominant, --exact and --scene out");
+  if (options.bits == baked::Bits::kFour && options.mixes == 0) throw UsageError("--bits 4 is of mixes; add --mixes 8");
   if (!(options.floor > 0 && options.floor <= 1))
     throw UsageError("--floor = " + files::number_text(options.floor) + " is outside (0, 1]");
   return options;
@@ -107,8 +115,9 @@ void write_results(capture::Capture& capture, const Subject& subject, const bake
       const std::size_t at = subject.samples_of(texel) + i;
       const auto e = residual.at(texel, static_cast<double>(subject.cosine[at]));
       for (std::size_t c = 0; c < 3; ++c)
-        picture.rgb[3 * std::size_t{subject.pixels[texel]} + c] = static_cast<float>(
-            std::max(static_cast<double>(subject.render[at][c]) + subject.irradiance_of(i) * e[c], 0.0));
+        picture.rgb[3 * std::size_t{subject.pixels[texel]} + c] =
+            static_cast<float>(std::max(static_cast<double>(subject.render[at][c]) + subject.irradiance_of(i) * e[c],
+                                        static_cast<double>(subject.least_of(texel, i, c))));
     }
     image::write_exr(capture::render_file(capture, variant, subject.camera, subject.lights[i]), picture);
   }
@@ -172,6 +181,12 @@ Summary bake_picture(const Request& request, const BakeOptions& options, const w
   else variant = variant_named(capture, request.variant, kMakesOne);
   const Renderer renderer = fit ? renders_of_fit(capture, *fit) : renders_of_variant(capture, camera, *variant);
   Subject subject = read_subject(capture, camera, renderer, {}, goes_on);
+  if (fit && !options.is_exact) {
+    face(subject, *fit);
+    const Terminator terminator = terminator_of(subject);
+    soften(subject, terminator);
+    fit->spread = terminator.spread, fit->least = terminator.least;
+  }
   const std::vector<weight::Layer> layers =
       weigh(capture, fit ? fit->normals : image::Picture(), choice, request.has_layers, subject);
   Inputs inputs = inputs_of_capture(capture, std::span(&camera, 1));
@@ -195,7 +210,7 @@ Summary bake_picture(const Request& request, const BakeOptions& options, const w
   Summary out;
   out.file = folder / "bake.json";
   out.texels = subject.texels(), out.lights = subject.lights.size(), out.cameras = 1;
-  out.lobes = seen.basis.lobes.size(), out.bytes_of_texel = (request.is_float ? 4 : 1) * bytes_of_texel(seen);
+  out.lobes = seen.basis.size(), out.bytes_of_texel = (request.is_float ? 4 : 1) * bytes_of_texel(seen);
   out.plain_rms = plain, out.left_rms = left, out.ladder = made.ladder, out.chosen = made.chosen;
   out.reading_s = seconds(begin, read), out.baking_s = seconds(read, baked);
   Census census = census_of(subject, capture);
@@ -250,6 +265,13 @@ void add_bake(CLI::App& realis, int& exit_code) {
       ->capture_default_str()
       ->group("Mesh");
   bake->add_option("--lobes", request->lobes, "auto (by held-out lights), or how many")->capture_default_str();
+  bake->add_option("--mixes", request->mixes,
+                   "keep coefficients of this many mixes of lobes, those that explain most; 0: of lobes")
+      ->check(CLI::Range(0, static_cast<int>(kMostLobes)))
+      ->capture_default_str();
+  bake->add_option("--bits", request->bits, "of a coefficient of a mix: 8 or 4")
+      ->check(CLI::IsMember({8, 4}))
+      ->capture_default_str();
   bake->add_option("--dominant", request->dominant, "lobes that a texel keeps; 0: all")
       ->check(CLI::Range(0, static_cast<int>(kMostLobes)))
       ->capture_default_str();
