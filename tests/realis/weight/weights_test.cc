@@ -175,17 +175,23 @@ TEST(ForeignWeight, FindsRegionsThatAreNeitherHighlightsNorShadows) {
   EXPECT_EQ(zeros(4, 2, true), 0);
   EXPECT_EQ(zeros(4, 0, false), 0);
 }
-// As bright as what it hides, and of another color.
+// As bright as what it hides, and of another color. What is only whiter is a highlight.
 TEST(ForeignWeight, FindsAnObjectByItsColor) {
-  Held held(16, 16, 12, 0);
-  for (std::size_t at = 0; at < held.photo.size(); ++at) {
-    const float lit = held.cosine[at];
-    held.photo[at] = held.render[at] = {lit, lit, lit};
-    const int x = static_cast<int>(at / 12) % 16, y = static_cast<int>(at / 12) / 16;
-    if (at % 12 == 7 && x >= 5 && x < 9 && y >= 5 && y < 9) held.photo[at] = {1.6f * lit, 0.88f * lit, 0.4f * lit};
-  }
-  const Weights w = foreign(held.samples(), {});
-  EXPECT_EQ(std::count(w.begin(), w.end(), 0.0f), 36);
+  const auto zeros = [](const Color& object) {
+    Held held(16, 16, 12, 0);
+    for (std::size_t at = 0; at < held.photo.size(); ++at) {
+      const float lit = held.cosine[at];
+      const Color usual{1.6f * lit, 0.88f * lit, 0.4f * lit};
+      held.photo[at] = held.render[at] = usual;
+      const int x = static_cast<int>(at / 12) % 16, y = static_cast<int>(at / 12) / 16;
+      if (at % 12 == 7 && x >= 5 && x < 9 && y >= 5 && y < 9)
+        held.photo[at] = {object[0] * lit, object[1] * lit, object[2] * lit};
+    }
+    const Weights w = foreign(held.samples(), {});
+    return std::count(w.begin(), w.end(), 0.0f);
+  };
+  EXPECT_EQ(zeros({0.6f, 1.05f, 1.4f}), 36);
+  EXPECT_EQ(zeros({1.1f, 0.98f, 0.9f}), 0);
 }
 
 }  // namespace
