@@ -114,6 +114,41 @@ TEST(Unwrap, TrianglesWithoutAreaInTheTextureDoNoHarm) {
   EXPECT_GT(u.inside, 300u);
 }
 
+// A plate under a smaller one: a camera above sees the rim of the lower one only.
+TEST(Sight, WhatStandsBetweenHidesATexel) {
+  scene::Scene scene;
+  scene.meshes = {scene::shape_mesh("plane", glm::dvec3(1), 1)};
+  scene.materials.resize(1);
+  glm::mat4 above(0.5f);
+  above[3] = glm::vec4(0, 0.01f, 0, 1);
+  scene.instances = {{"below", 0, 0, glm::mat4(1)}, {"above", 0, 0, above}};
+  scene.cameras.resize(1);
+  const world::World world(scene, plan::plan_of(scene, 0));
+  const Unwrapped u = unwrap(scene.meshes[0], 32, "below");
+  const TexelSurface surface = surface_of(world, 0, u);
+  capture::Camera camera;
+  camera.width = camera.height = 100;
+  camera.intrinsics = glm::dmat3(800, 0, 0, 0, 800, 0, 50, 50, 1);
+  camera.world_from_camera =
+      glm::dmat4(glm::dvec4(1, 0, 0, 0), glm::dvec4(0, 0, 1, 0), glm::dvec4(0, -1, 0, 0), glm::dvec4(0, 10, 0, 1));
+  std::set<std::uint32_t> seen;
+  for (const Seen& s : sight_of(world, 0, u, surface, camera).seen) seen.insert(s.texel);
+  for (std::uint32_t t = 0; t < u.pixels.size(); ++t) {
+    const glm::vec3 p = surface.positions[t];
+    const float far = std::max(std::abs(p.x), std::abs(p.z));
+    if (far > 0.27f) {
+      EXPECT_TRUE(seen.contains(t)) << p.x << ' ' << p.z;
+    }
+    if (far < 0.23f) {
+      EXPECT_FALSE(seen.contains(t)) << p.x << ' ' << p.z;
+    }
+  }
+  // From below it is the back, and nothing is seen.
+  camera.world_from_camera =
+      glm::dmat4(glm::dvec4(1, 0, 0, 0), glm::dvec4(0, 0, -1, 0), glm::dvec4(0, 1, 0, 0), glm::dvec4(0, -10, 0, 1));
+  EXPECT_TRUE(sight_of(world, 0, u, surface, camera).seen.empty());
+}
+
 capture::Camera some_camera(bool is_orthographic) {
   capture::Camera c;
   c.width = 320, c.height = 200, c.is_orthographic = is_orthographic;
