@@ -56,6 +56,10 @@ int run_apply(const ApplyRequest& request) {
   const capture::Capture capture = capture::read_capture(request.capture);
   const std::filesystem::path folder = capture.root / "realis" / request.name;
   const StoredBake stored = read_bake(folder);
+  if (stored.about.space == baked::Space::kTexture)
+    throw UsageError(folder.string() + " is of the mesh " + files::in_quotes(stored.about.object) + " in " +
+                     stored.about.scene + "; a material of the scene adds it (\"realis\": {\"bake\": FOLDER}), and " +
+                     "`likeness render` shows it under any light");
   const std::size_t camera = camera_named(capture, stored.about.camera);
   const capture_fit::Fit surface = read_surface(folder, camera);
   std::vector<Beam> beams;
