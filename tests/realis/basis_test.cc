@@ -38,7 +38,7 @@ TEST(Basis, CountsLightsAtOnePlaceOnce) {
 
 TEST(Basis, OfNothingIsNothing) {
   EXPECT_TRUE(spread_out({}, 4).empty());
-  EXPECT_TRUE(values({}, test::dome(3)).empty());
+  EXPECT_TRUE(values(std::span<const Lobe>{}, test::dome(3)).empty());
 }
 
 // The farthest light from its axis stays near: centers cover the dome. Twelve caps of equal area on half a sphere have a
