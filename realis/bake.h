@@ -25,8 +25,8 @@ struct BakeOptions {
   // texels that the light grazes: they are lit by others, and normals are not exact.
   double floor = 0.4;
   baked::Bits bits = baked::Bits::kEight;  // of each stored coefficient
-  std::uint64_t seed = 1;  // of the texels that lobes are chosen by
-  bool by_stops = true;    // lobes are chosen by stops of held-out lights too, or else by their light alone
+  std::uint64_t seed = 1;                  // of the texels that lobes are chosen by
+  bool by_stops = true;  // lobes are chosen by stops of held-out lights too, or else by their light alone
 };
 
 // A bake, and how its lobes were chosen.

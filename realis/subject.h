@@ -52,8 +52,9 @@ struct Subject {
 
   // The least light of a sample.
   float least_of(std::size_t texel, std::size_t light, std::size_t channel) const {
-    return facing.empty() ? 0.0f
-                          : static_cast<float>(least * irradiance_of(light) * static_cast<double>(facing[texel][channel]));
+    return facing.empty()
+               ? 0.0f
+               : static_cast<float>(least * irradiance_of(light) * static_cast<double>(facing[texel][channel]));
   }
   double irradiance_of(std::size_t light) const { return irradiance.empty() ? 1 : irradiance[light]; }
   std::size_t texels() const { return pixels.size(); }

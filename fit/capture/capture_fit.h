@@ -68,7 +68,7 @@ struct Fit {
   // What fits leave at 0 and a bake finds (realis/terminator.h): how cosines are spread within a pixel (soft_cosine.h), and
   // what light there is at least, as a share of what the diffuse part returns of a light that the surface faces.
   double spread = 0, least = 0;
-  double exposure = 1;              // photo over what the material returns of a unit light; 1: the light is absolute
+  double exposure = 1;  // photo over what the material returns of a unit light; 1: the light is absolute
   std::vector<fit::Estimate> estimates;  // of each parameter: value, sigma, and why one was not fitted
   std::vector<fit::Step> convergence;    // of the shared parameters' robust loss
   Residuals residuals;
