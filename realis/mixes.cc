@@ -14,6 +14,7 @@
 #include <Eigen/Eigenvalues>
 #include <glm/geometric.hpp>
 
+#include "realis/solve.h"
 #include "realis/weight/samples.h"
 
 namespace likeness::realis {
@@ -30,7 +31,7 @@ constexpr std::array<std::pair<double, std::size_t>, 4> kScales{{{48, 128}, {12,
 constexpr double kLength = 0.9, kConstant = 10, kOverNoise = 100;
 
 // Residuals of the luminance of some texels, lights x texels [1/sr].
-Matrix residuals_of(const Subject& s, double floor, std::uint64_t seed, std::size_t most) {
+Matrix residuals_of(const Subject& s, const Basis& prior, double floor, std::uint64_t seed, std::size_t most) {
   std::vector<std::size_t> order(s.texels()), chosen;
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::mt19937_64 random(seed);
@@ -42,23 +43,31 @@ Matrix residuals_of(const Subject& s, double floor, std::uint64_t seed, std::siz
     if (lights > 0 && trust >= 0.5 * static_cast<double>(lights)) chosen.push_back(order[i]);
   }
   Matrix out = Matrix::Zero(static_cast<Eigen::Index>(lights), static_cast<Eigen::Index>(chosen.size()));
+  Solver solver(prior);
+  solver.aim(s.to_lights);
+  const std::vector<double> rows = values(prior, s.to_lights);
+  std::vector<double> weights(lights), e(lights), coefficients(prior.size());
   for (Eigen::Index t = 0; t < out.cols(); ++t) {
     const std::size_t first = s.samples_of(chosen[static_cast<std::size_t>(t)]);
-    double sum = 0, trusted = 0;
+    bool is_trusted = true;
     for (std::size_t i = 0; i < lights; ++i) {
-      const double w = static_cast<double>(s.weight[first + i]);
-      if (!(w > 0)) continue;
+      weights[i] = static_cast<double>(s.weight[first + i]), e[i] = 0;
+      is_trusted &= weights[i] >= 1;
+      if (!(weights[i] > 0)) continue;
       const double received = std::max(static_cast<double>(s.cosine[first + i]), floor) * s.irradiance_of(i);
-      double& e = out(static_cast<Eigen::Index>(i), t);
-      e = (weight::luminance(s.photo[first + i]) - weight::luminance(s.render[first + i])) / received;
-      sum += w * e, trusted += w;
+      e[i] = (weight::luminance(s.photo[first + i]) - weight::luminance(s.render[first + i])) / received;
     }
-    // What is not trusted is as the texel's other lights are in the mean.
-    for (std::size_t i = 0; i < lights; ++i) {
-      double& e = out(static_cast<Eigen::Index>(i), t);
-      const double w = static_cast<double>(s.weight[first + i]);
-      e = w * e + (1 - w) * (trusted > 0 ? sum / trusted : 0);
+    // What is not trusted is as the prior makes it of the texel's other lights.
+    if (!is_trusted) {
+      solver.solve(weights, e, coefficients);
+      for (std::size_t i = 0; i < lights; ++i) {
+        const double found =
+            std::inner_product(coefficients.begin(), coefficients.end(),
+                               rows.begin() + static_cast<std::ptrdiff_t>(i * coefficients.size()), 0.0);
+        e[i] = weights[i] * e[i] + (1 - weights[i]) * found;
+      }
     }
+    for (std::size_t i = 0; i < lights; ++i) out(static_cast<Eigen::Index>(i), t) = e[i];
   }
   return out;
 }
@@ -141,7 +150,7 @@ Mixes::Mixes(const Subject& subject, const Basis& prior, double floor, std::uint
     : work_(std::make_unique<Work>()) {
   Work& w = *work_;
   w.prior = prior;
-  const Matrix e = residuals_of(subject, floor, seed, kTaken);
+  const Matrix e = residuals_of(subject, prior, floor, seed, kTaken);
   w.lights = e.rows();
   if (e.size() == 0 || prior.lobes.empty()) return;
   const auto texels = static_cast<double>(e.cols());

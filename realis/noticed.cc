@@ -19,7 +19,7 @@ constexpr double kManyNegative = 0.01;
 
 std::string percent(std::size_t part, std::size_t whole) {
   const double share = 100 * static_cast<double>(part) / static_cast<double>(std::max<std::size_t>(whole, 1));
-  return files::number_text(std::round(share * 10) / 10) + " %";
+  return share < 0.1 ? "less than 0.1 %" : files::number_text(std::round(share * 10) / 10) + " %";
 }
 
 // Root mean square distance of the directions from the plane that fits them best.
