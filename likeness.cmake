@@ -114,13 +114,16 @@ endfunction()
 #
 # Headers are half of the time that tests take to compile, so ./bootstrap compiles the sources of a program together
 # (CMAKE_UNITY_BUILD of the preset release). APART says that they use the same names for different things, and are not.
+# What is tested is in the rooms, so tests have -O1: a third less time. FAST says that theirs is in headers, and long.
 function(likeness_test name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "APART" "TIMEOUT" "SOURCES;NEEDS;WITH")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "APART;FAST" "TIMEOUT" "SOURCES;NEEDS;WITH")
   if(NOT arg_TIMEOUT)
     set(arg_TIMEOUT 120)
   endif()
   add_executable(${name} ${arg_SOURCES})
-  target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)  # what is tested is in the rooms; a third less time
+  if(NOT arg_FAST)
+    target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)
+  endif()
   if(arg_APART)
     set_target_properties(${name} PROPERTIES UNITY_BUILD OFF)
   endif()
