@@ -15,6 +15,7 @@
 #include "realis/bake_file.h"
 #include "realis/from_capture.h"
 #include "realis/inputs.h"
+#include "realis/layers.h"
 #include "realis/named.h"
 #include "realis/noticed.h"
 #include "realis/summary.h"
@@ -204,8 +205,9 @@ Summary bake_picture(const Request& request, const BakeOptions& options, const w
   const std::filesystem::path folder = folder_of(request, capture);
   write_bake(folder, stored, request.is_float);
   if (fit) write_surface(folder, *fit);
-  if (request.has_layers) write_weights(capture, subject, layers, std::filesystem::path("realis") / request.name);
+  // The first variant is what others take if none is named: layers come last.
   if (!request.result.empty()) write_results(capture, subject, seen, request.result);
+  if (request.has_layers) write_layers(capture, subject, seen, layers, std::filesystem::path("realis") / request.name);
 
   Summary out;
   out.file = folder / "bake.json";
@@ -304,13 +306,13 @@ void add_bake(CLI::App& realis, int& exit_code) {
   bake->add_option("--only", request->only, "weight, of all the only one; may be repeated")
       ->allow_extra_args(false)
       ->group("Weights");
-  bake->add_flag("--layers", request->has_layers, "each weight as a variant weight_NAME, for likeness olat view")
-      ->group("Weights");
+  bake->add_flag("--layers", request->has_layers,
+                 "raw error, demodulated error, each weight and coefficient as variants, for likeness olat view");
   bake->footer("Weights of samples, and whether they are on" + weights + "\n\n" + R"(Examples
   likeness realis bake capture                      fit the photographs, bake what the fit lacks: CAPTURE/realis/bake
   likeness olat view capture                        photographs beside render + realis
   likeness realis bake head --variant path_traced   what the renders of a scene lack
-  likeness realis bake capture --without stretch --layers   what a weight does, to look at
+  likeness realis bake capture --layers            what it was made of, to look at: docs/realis_weights.md
   likeness olat render head --scene head.json && likeness realis bake head --scene head.json --resolution 2048
                                                     a mesh, in its texture, from all cameras
 

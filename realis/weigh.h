@@ -15,10 +15,4 @@ namespace likeness::realis {
 std::vector<weight::Layer> weigh(const capture::Capture& capture, const image::Picture& normals,
                                  const weight::Choice& choice, bool keeps, Subject& subject);
 
-// Writes each layer, and the product of all that Subject::weight holds as `all`, as variants of the capture that
-// `likeness olat view` shows: FOLDER/weights/WEIGHT/LIGHT.exr, 1 white, 0 black and outside the mask. Variants are called
-// weight_NAME. FOLDER is below the capture's root, or absolute. Throws files::Interrupted.
-void write_weights(capture::Capture& capture, const Subject& subject, std::span<const weight::Layer> layers,
-                   const std::filesystem::path& folder);
-
 }  // namespace likeness::realis

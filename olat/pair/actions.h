@@ -59,6 +59,7 @@ inline constexpr std::array kActions{
     Action{"blue", "Channel", "b", "Blue light"},
     Action{"luma", "Channel", "y", "Luminance"},
     Action{"coverage", "Channel", "a", "Mask"},
+    Action{"signed", "Channel", "Shift+y", "Luminance with its sign: blue below 0, orange above"},
     Action{"color", "Channel", "c", "Color"},
 
     Action{"fit", "Window", "f", "All of the picture"},

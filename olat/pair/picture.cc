@@ -66,6 +66,7 @@ Color selected(Channel channel, const Color& light) {
     }
     case Channel::kColor:
     case Channel::kCoverage:
+    case Channel::kSigned:
       break;
   }
   return light;
@@ -73,8 +74,8 @@ Color selected(Channel channel, const Color& light) {
 
 // The value of a metric's formula that a pixel has: luminance, or the channel that is shown.
 float scalar_of(Channel channel, const Color& light) {
-  const Color c = selected(channel, light);
-  return channel == Channel::kColor || channel == Channel::kCoverage ? luminance(c) : c[0];
+  const bool is_luminance = channel == Channel::kColor || channel == Channel::kCoverage || channel == Channel::kSigned;
+  return is_luminance ? luminance(light) : selected(channel, light)[0];
 }
 
 image::Lab lab_of(const Color& shown) {
@@ -116,6 +117,7 @@ class Painter {
       return {v, v, v};
     }
     const Color light = light_at(x, y, is_render);
+    if (state_.channel == Channel::kSigned) return map_color(luminance(light) * scale_, true);
     Color out = encoded(selected(state_.channel, light));
     const float exposed = luminance(light) * scale_;
     if (state_.overlay == Overlay::kZones) out = zone_color(exposed, x, y);

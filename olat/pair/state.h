@@ -36,11 +36,15 @@ inline constexpr std::array kMatches{
     Choice{"channel", "one gain for each camera, light and color channel"},
 };
 
-enum class Channel : unsigned char { kColor, kRed, kGreen, kBlue, kLuma, kCoverage };
+enum class Channel : unsigned char { kColor, kRed, kGreen, kBlue, kLuma, kCoverage, kSigned };
 inline constexpr std::array kChannels{
-    Choice{"color", "all three"},           Choice{"red", "red light as grey"},
-    Choice{"green", "green light as grey"}, Choice{"blue", "blue light as grey"},
-    Choice{"luma", "luminance as grey"},    Choice{"coverage", "white inside the mask"},
+    Choice{"color", "all three"},
+    Choice{"red", "red light as grey"},
+    Choice{"green", "green light as grey"},
+    Choice{"blue", "blue light as grey"},
+    Choice{"luma", "luminance as grey"},
+    Choice{"coverage", "white inside the mask"},
+    Choice{"signed", "luminance with its sign: blue below 0, orange above; the colors end at 1 after exposure"},
 };
 
 enum class Overlay : unsigned char { kNone, kZones, kCurve };

@@ -42,7 +42,12 @@ const capture::Variant& variant_of(capture::Capture& capture, const std::string&
     throw UsageError("--variant " + files::in_quotes(id) +
                      " cannot be a name; expected 1 to 120 bytes without / and \\");
   const std::size_t at = capture::variant_of(capture, id);
-  if (at != capture::kAbsent) return capture.variants[at];
+  if (at != capture::kAbsent) {
+    if (capture.variants[at].pattern.find("{light}") == std::string::npos)
+      throw UsageError("--variant " + files::in_quotes(id) + " is a picture that no light changes (" +
+                       capture.variants[at].pattern + "); renders need another name");
+    return capture.variants[at];
+  }
   capture.variants.push_back({id, "renders/{variant}/{camera}/{light}.exr"});
   capture::write_capture(capture);
   return capture.variants.back();

@@ -101,6 +101,7 @@ export function makeActions(app) {
     blue: channel('blue'),
     luma: channel('luma'),
     coverage: channel('coverage'),
+    signed: channel('signed'),
     color: () => app.change({ channel: 'color' }),
     fit: () => app.change({ zoom: 0, x: 0.5, y: 0.5 }),
     one_to_one: () => app.change({ zoom: 1 }),

@@ -104,7 +104,7 @@ vec3 shown(vec3 light) {
 vec3 selected(vec3 c) {
   return channel == 1 ? c.rrr : channel == 2 ? c.ggg : channel == 3 ? c.bbb : channel == 4 ? vec3(luminance(c)) : c;
 }
-float scalar(vec3 c) { return channel == 0 || channel == 5 ? luminance(c) : selected(c).r; }
+float scalar(vec3 c) { return channel == 0 || channel >= 5 ? luminance(c) : selected(c).r; }
 
 bool on_stripe(ivec2 at, bool rising) { return ((rising ? at.x + at.y : at.x - at.y) & 7) < 4; }
 
@@ -115,6 +115,17 @@ vec3 zone_color(float exposed, ivec2 at) {
   bool hatched = below ? i % 2 == 1 : i > 5 && i % 2 == 0;
   bool dark = hatched && ((below ? at.x - at.y : at.x + at.y) & 7) < 2;
   return zone_colors[i] * (dark ? 0.7 : 1.0);
+}
+
+vec3 map_color(float t, bool is_signed) {
+  if (is_signed) {
+    float at = 2.0 * (clamp(t, -1.0, 1.0) + 1.0);
+    int low = min(int(at), 3);
+    return mix(signed_colors[low], signed_colors[low + 1], at - float(low));
+  }
+  float at = 17.0 * clamp(t, 0.0, 1.0);
+  int low = min(int(at), 16);
+  return mix(magma[low], magma[low + 1], at - float(low));
 }
 
 // One picture: its light, the flaws of the pixel, and where on the grid of stripes it is.
@@ -134,6 +145,7 @@ vec3 picture(vec3 light, int flaws, ivec2 at, bool is_render) {
   if (max(full.r, max(full.g, full.b)) >= 254.5 / 255.0 && on_stripe(at, true)) result = display_stripe;
   if (!is_render && (flaws & (kClipped | kNotFinite)) != 0 && on_stripe(at, false)) result = sensor_stripe;
 #endif
+  if (channel == 6) return map_color(exposed, true);
   return channel == 5 ? vec3((flaws & kMasked) != 0 ? 0.1 : 1.0) : result;
 }
 
@@ -174,17 +186,6 @@ float delta_e_2000(vec3 p, vec3 q) {
   float sl = 1.0 + 0.015 * l50 / sqrt(20.0 + l50), sc = 1.0 + 0.045 * c, sh = 1.0 + 0.015 * c * t;
   float rt = -sin(turn) * 2.0 * chroma_share(c), x = dl / sl, y = dc / sc, z = dhue / sh;
   return sqrt(max(0.0, x * x + y * y + z * z + rt * y * z));
-}
-
-vec3 map_color(float t, bool is_signed) {
-  if (is_signed) {
-    float at = 2.0 * (clamp(t, -1.0, 1.0) + 1.0);
-    int low = min(int(at), 3);
-    return mix(signed_colors[low], signed_colors[low + 1], at - float(low));
-  }
-  float at = 17.0 * clamp(t, 0.0, 1.0);
-  int low = min(int(at), 16);
-  return mix(magma[low], magma[low + 1], at - float(low));
 }
 
 #if defined(METRIC)

@@ -258,7 +258,7 @@ class Viewer {
       'match ' + state.match + (state.match === 'none' ? '' : ' ' + (state.match === 'channel' ? stops.map(text).join(' ') : text(stops[1])) + ' stops'),
       'view ' + state.view,
       state.mode === 'difference' ? metricText(state, this.stage.pair.noise) : '',
-      state.channel === 'color' ? '' : state.channel,
+      state.channel === 'color' ? '' : state.channel === 'signed' && state.mode !== 'difference' ? `signed: blue −${Number((2 ** -state.ev).toPrecision(3))}, orange +${Number((2 ** -state.ev).toPrecision(3))}` : state.channel,
       `${Math.round(100 * this.stage.window.zoom)} %`,
     ].filter(Boolean).join('   ');
     byId('hud').title = this.exposed ? tables.exposures[this.exposed].text : '';

@@ -38,7 +38,7 @@ constexpr std::array kFlipKeys{
 };
 constexpr std::array kVariantKeys{
     Key{.name = "id", .form = Form::kText, .required = true, .text = "names the renders of one scene and one renderer"},
-    Key{.name = "pattern", .form = Form::kFile, .initial = "renders/{variant}/{camera}/{light}.exr", .text = "of a pair's file, with ids in the places of {camera}, {light} and {variant}; below the capture's folder"},
+    Key{.name = "pattern", .form = Form::kFile, .initial = "renders/{variant}/{camera}/{light}.exr", .text = "of a pair's file, with ids in the places of {camera}, {light} and {variant}; without {light}: a picture that no light changes; below the capture's folder"},
 };
 constexpr std::array kLayersKeys{
     Key{.name = kLayers[0], .form = Form::kFile, .text = "1 inside, 0 outside: the green channel, from half of its range"},

@@ -237,10 +237,10 @@ void read_whole(const Fields& file, Capture& capture) {
     out.id = id_of(row, variants, kMostVariants);
     out.pattern = row.text("pattern");
     if (row.has("pattern")) file_of(row, "pattern", false);
-    for (const char* word : {"{camera}", "{light}"})
-      if (out.pattern.find(word) == std::string::npos)
-        row.refuse("pattern", " = " + in_quotes(out.pattern) + " has no " + word +
-                                  ": pairs would share a file (for example renders/{variant}/{camera}/{light}.exr)");
+    if (out.pattern.find("{camera}") == std::string::npos)
+      row.refuse("pattern", " = " + in_quotes(out.pattern) +
+                                " has no {camera}: cameras would share a file (for example "
+                                "renders/{variant}/{camera}/{light}.exr)");
   }
   if (const auto pipeline = file.object("pipeline"))
     capture.pipeline = {pipeline->text("match_gain"), pipeline->number("ev"), pipeline->text("view")};

@@ -77,6 +77,18 @@ TEST(PictureOfAState, LeavesOutWhatTheMaskDoesAndTakesWhatIsNoNumber) {
     EXPECT_NO_THROW(shown(std::string("mode=difference&metric=") + metric, pair_of({kNan, -1, 0}, {kInfinity, 0, 0})));
 }
 
+// The colors of maps: dark grey at 0, and their ends at 1 after exposure, whatever the view.
+TEST(PictureOfAState, ShowsLightBelowNothingInBlueWhereItsSignIsAskedFor) {
+  const auto sign_of = [](float v, const std::string& rest = "") {
+    return shown("channel=signed" + rest, pair_of({v, v, v}, {0, 0, 0}));
+  };
+  EXPECT_EQ(sign_of(0), (Rgb8{41, 41, 43}));
+  EXPECT_EQ(sign_of(-1), (Rgb8{168, 224, 255}));
+  EXPECT_EQ(sign_of(0.5f, "&view=srgb"), (Rgb8{204, 107, 20}));
+  EXPECT_EQ(sign_of(-0.25f, "&ev=1"), sign_of(-0.5f));
+  EXPECT_EQ(sign_of(-3), sign_of(-1)) << "beyond the end of the colors";
+}
+
 TEST(PictureOfAState, ColorsZonesWithMiddleGreyGrey) {
   EXPECT_EQ(shown("overlay=zones", pair_of({0.18f, 0.18f, 0.18f}, {0, 0, 0})), (Rgb8{118, 118, 118}));
   EXPECT_EQ(shown("overlay=zones&ev=-1", pair_of({0.36f, 0.36f, 0.36f}, {0, 0, 0})), (Rgb8{118, 118, 118}));

@@ -34,9 +34,9 @@ std::vector<std::string> grid() {
         "signed&ev=-2", "stops&match=light", "stops&match=channel"})
     out.push_back(std::string("mode=difference&metric=") + metric);
   for (const char* rest :
-       {"overlay=zones", "overlay=zones&ev=-3.5&mode=side", "channel=coverage", "channel=green", "channel=blue",
-        "gt_P=2&gt_a=1.4&gt_m=0.3&gt_l=0.2&gt_c=2&gt_b=0.05&overlay=curve", "gt_l=1&ev=2", "gt_m=0&ev=-3",
-        "mode=render&match=capture", "mode=wipe&overlay=curve&zebra=1&ev=3"})
+       {"overlay=zones", "overlay=zones&ev=-3.5&mode=side", "channel=coverage", "channel=signed&ev=-1", "channel=green",
+        "channel=blue", "gt_P=2&gt_a=1.4&gt_m=0.3&gt_l=0.2&gt_c=2&gt_b=0.05&overlay=curve", "gt_l=1&ev=2",
+        "gt_m=0&ev=-3", "mode=render&match=capture", "mode=wipe&overlay=curve&zebra=1&ev=3"})
     out.push_back(rest);
   return out;
 }

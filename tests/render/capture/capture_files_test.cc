@@ -211,7 +211,7 @@ TEST(CaptureFiles, WhatIsWrongIsNamedWithItsFileLineAndWayOut) {
       {kCapture, "\"up\": [\n  0.0,\n  0.0,\n  1.0", "\"up\": [0, 0, 0", "/up has no length"},
       {kCapture, "\"units\": \"m\"", "\"units\": \"mm\"", "/units = \"mm\" is not known"},
       {kCapture, "\"name\"", "\"nam\"", "/nam is not a key of a capture; did you mean \"name\"?"},
-      {kCapture, "renders/{variant}/{camera}/{light}.exr", "renders/{camera}.exr", "has no {light}"},
+      {kCapture, "renders/{variant}/{camera}/{light}.exr", "renders/{light}.exr", "has no {camera}"},
       {kCapture, "renders/{variant}", "../{variant}", "leaves the folder by .."},
       {kCapture, "renders/{variant}", "/etc/{variant}", "is absolute; expected a file below the capture's folder"},
       {kCapture, "\"first_ev\": -2.0", "\"first_ev\": 2.0", "/flip/last_ev = 1 is below first_ev"},
