@@ -133,7 +133,7 @@ void run(CaptureCommand asked) {
               << "; renders/truth is without faults, truth.json says what is wrong\n";
 }
 
-constexpr auto kFooter =
+constexpr auto kCaptureFooter =
     R"(A ball of 0.1 m on a floor, direct light with exact shadows. photos/ has the faults that are asked for, renders/truth
 has none; without any fault the two are equal. Lights are numbered from 0. The same options give the same bytes.
 
@@ -200,7 +200,7 @@ void add_make_capture(CLI::App& make, int& exit_code) {
   sub->add_option("--missing", asked->missing, "So many frames are left out")->group(group);
   sub->add_option("--duplicate", asked->duplicated, "So many frames stand twice")->group(group);
   sub->add_flag("--mirror", faults.is_mirrored, "x of every light in lights.json is turned round")->group(group);
-  sub->footer(kFooter);
+  sub->footer(kCaptureFooter);
   sub->callback([asked, &exit_code] {
     try {
       run(*asked);

@@ -14,9 +14,7 @@
 namespace likeness::datasets_synthetic {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
-double rounded(double value) { return std::round(value * 1e5) / 1e5; }
+using std::numbers::pi;
 
 double smooth(double low, double high, double x) {
   const double t = std::clamp((x - low) / (high - low), 0.0, 1.0);
@@ -40,7 +38,7 @@ scene::Mesh tooth(const glm::dvec3& half, double power, double taper) {
   const auto bent = [&](double value) { return std::copysign(std::pow(std::abs(value), 2 / power), value); };
   return mesh_of(
       [&](double s, double t) {
-        const double phi = 2 * kPi * s, theta = kPi * t;
+        const double phi = 2 * pi * s, theta = pi * t;
         const glm::dvec3 unit(bent(std::sin(theta)) * bent(std::cos(phi)), bent(std::cos(theta)),
                               -bent(std::sin(theta)) * bent(std::sin(phi)));
         const double width = 1 - taper * 0.5 * (1 + unit.y);
@@ -101,13 +99,14 @@ void make_teeth(const SceneOptions& options, SceneFiles& files) {
       x += half;
       for (const double side : {-1.0, 1.0}) {
         const glm::dvec3 at = arch(side * x);
-        const double lean = rounded(-side * std::atan(28 * x) * 180 / kPi + 3 * (random.uniform() - 0.5));
+        const double lean = rounded(-side * std::atan(28 * x) * 180 / pi + 3 * (random.uniform() - 0.5), 5);
         // The taper is at the root: lower teeth stand upside down.
-        files.add_instance(name, "enamel",
-                           {{"rotate_deg", {row.side > 0 ? 0 : 180, row.side > 0 ? -lean : lean, 0}},
-                            {"translate",
-                             {rounded(at.x), rounded(row.side * (row.height - 0.0008) + 0.0003 * random.uniform()),
-                              rounded(at.z + row.z)}}});
+        files.add_instance(
+            name, "enamel",
+            {{"rotate_deg", {row.side > 0 ? 0 : 180, row.side > 0 ? -lean : lean, 0}},
+             {"translate",
+              {rounded(at.x, 5), rounded(row.side * (row.height - 0.0008) + 0.0003 * random.uniform(), 5),
+               rounded(at.z + row.z, 5)}}});
       }
       x += half + 0.0002;
     }
@@ -116,11 +115,11 @@ void make_teeth(const SceneOptions& options, SceneFiles& files) {
     files.add_mesh(std::string(row.name) + "_gum",
                    mesh_of(
                        [&](double s, double t) {
-                         const double along = reach * (2 * t - 1), phi = 2 * kPi * s;
+                         const double along = reach * (2 * t - 1), phi = 2 * pi * s;
                          const double radius = 0.0052 * std::sqrt(std::max(1e-4, 1 - std::pow(2 * t - 1, 6)));
                          const glm::dvec3 middle = arch(along) + glm::dvec3(0, side * 0.0118, row.z - 0.0012);
                          const glm::dvec3 out = glm::normalize(glm::dvec3(28 * along, 0, 1));
-                         const double scallop = 1 + 0.05 * std::cos(along / 0.0037 * kPi);
+                         const double scallop = 1 + 0.05 * std::cos(along / 0.0037 * pi);
                          return SurfacePoint{
                              middle + radius * scallop * (std::cos(phi) * glm::dvec3(0, 1, 0) + std::sin(-phi) * out),
                              {4 * t, s}};
@@ -156,10 +155,10 @@ void make_eye(const SceneOptions& options, SceneFiles& files) {
   files.add_mesh("eyeball", mesh_of(
                                 [&](double s, double t) {
                                   // Rows lie closer in front, where the cornea is.
-                                  const double theta = kPi * std::pow(t, 1.5), phi = 2 * kPi * s;
+                                  const double theta = pi * std::pow(t, 1.5), phi = 2 * pi * s;
                                   const double side = cornea_z * std::sin(theta);
                                   double radius = kSclera;
-                                  if (side < kCornea && theta < kPi / 2) {
+                                  if (side < kCornea && theta < pi / 2) {
                                     const double over = cornea_z * std::cos(theta) +
                                                         std::sqrt(kCornea * kCornea - side * side) - kSclera;
                                     constexpr double kBlend = 0.0002;  // rounds the limbus
@@ -167,7 +166,7 @@ void make_eye(const SceneOptions& options, SceneFiles& files) {
                                   }
                                   const glm::dvec3 out(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi),
                                                        std::cos(theta));
-                                  const double r = 0.5 * theta / kPi;
+                                  const double r = 0.5 * theta / pi;
                                   return SurfacePoint{radius * out, {0.5 + r * std::cos(phi), 0.5 - r * std::sin(phi)}};
                                 },
                                 128, 96));
@@ -176,7 +175,7 @@ void make_eye(const SceneOptions& options, SceneFiles& files) {
   };
   const auto polar = [](double u, double v) {
     const double x = 2 * u - 1, y = 1 - 2 * v, phi = std::atan2(y, x);
-    return Polar{std::hypot(x, y) * kPi, phi, phi / (2 * kPi) + 0.5};
+    return Polar{std::hypot(x, y) * pi, phi, phi / (2 * pi) + 0.5};
   };
   const double pupil = 0.38 * limbus;
   const unsigned seed = static_cast<unsigned>(options.seed);

@@ -98,7 +98,7 @@ void run(const SceneCommand& asked, std::ostream& out) {
   for (const std::filesystem::path& scene : write_scene(kind, options)) out << scene.string() << '\n';
 }
 
-constexpr auto kFooter =
+constexpr auto kSceneFooter =
     R"(A scene is a folder: scene.json (docs/scene.md), and the meshes and textures that it names. All of it is
 computed; the same options give the same bytes.
 
@@ -135,7 +135,7 @@ void add_make_scene(CLI::App& make, int& exit_code) {
   sub->add_option("--frames", asked->frames,
                   "spheres: that many scene files, the light going once around from --light-deg (default 1)")
       ->group(lights);
-  sub->footer(kFooter);
+  sub->footer(kSceneFooter);
   sub->callback([asked, &exit_code] {
     run(*asked, std::cout);
     exit_code = 0;

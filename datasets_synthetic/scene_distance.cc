@@ -8,7 +8,7 @@
 namespace likeness::datasets_synthetic {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 // Normals of a height over the unit square that repeats at its edges: slopes by differences.
 template <class Height>
@@ -46,10 +46,10 @@ void make_distance(const SceneOptions& options, SceneFiles& files) {
     return noise(16 * (u + 2), 16 * (v + 2), 31 + seed, 16) + noise(16 * (v + 2), 16 * (u + 2), 47 + seed, 16);
   });
   const SceneJson plaster = normals(files, "plaster", 256, 0.012, [](double u, double v) {
-    return std::sin(2 * kPi * 16 * u) * std::cos(2 * kPi * 16 * v);
+    return std::sin(2 * pi * 16 * u) * std::cos(2 * pi * 16 * v);
   });
   const SceneJson tiles = normals(files, "tiles", 256, 0.02, [](double u, double v) {
-    const auto edge = [](double x) { return std::pow(std::abs(std::cos(kPi * 4 * x)), 12.0); };
+    const auto edge = [](double x) { return std::pow(std::abs(std::cos(pi * 4 * x)), 12.0); };
     return -std::max(edge(u), edge(v));
   });
   const SceneJson checks = files.add_texture("checks", 256, 256, 3, [](double u, double v, float* channels) {

@@ -8,11 +8,10 @@
 #include "datasets_synthetic/random.h"
 #include "datasets_synthetic/scene.h"
 #include "datasets_synthetic/scene_files.h"
+#include "datasets_synthetic/scene_shapes.h"
 
 namespace likeness::datasets_synthetic {
 namespace {
-
-double rounded(double value) { return std::round(value * 1e4) / 1e4; }
 
 using Corners = std::array<std::array<double, 3>, 4>;
 
@@ -83,7 +82,7 @@ void make_cornell(const SceneOptions& options, SceneFiles& files) {
 
 void make_corridor(const SceneOptions& options, SceneFiles& files) {
   const double length = std::max(12.0, 0.4 * options.lights), half_width = 1.6, height = 3;
-  const double middle = rounded(-length / 2);
+  const double middle = rounded(-length / 2, 4);
   files.add_camera({{"name", "entrance"},
                     {"width", options.width},
                     {"height", options.height},
@@ -106,7 +105,7 @@ void make_corridor(const SceneOptions& options, SceneFiles& files) {
   files.add_instance("wall", "plaster", {{"translate", {-half_width - 0.05, height / 2, middle}}});
   files.add_instance("wall", "plaster", {{"translate", {half_width + 0.05, height / 2, middle}}});
   files.add_instance("end", "plaster", {{"translate", {0, height / 2, 0.05}}});
-  files.add_instance("end", "plaster", {{"translate", {0, height / 2, rounded(-length - 0.05)}}});
+  files.add_instance("end", "plaster", {{"translate", {0, height / 2, rounded(-length - 0.05, 4)}}});
   const int pillars = static_cast<int>(length / 2);
   for (int i = 0; i < pillars; ++i)
     files.add_instance("pillar", i % 3 == 0 ? "brass" : "plaster",
@@ -115,20 +114,20 @@ void make_corridor(const SceneOptions& options, SceneFiles& files) {
   Random random(options.seed, 1);
   constexpr std::array kKinds{"point", "spot", "sphere", "rectangle", "disk"};
   for (int i = 0; i < options.lights; ++i) {
-    const double z = rounded(-length * (i + 0.2 + 0.6 * random.uniform()) / options.lights);
-    const double x = rounded((i % 2 == 0 ? -1 : 1) * (0.3 + 0.7 * random.uniform()));
-    const double y = rounded(2.2 + 0.5 * random.uniform());
+    const double z = rounded(-length * (i + 0.2 + 0.6 * random.uniform()) / options.lights, 4);
+    const double x = rounded((i % 2 == 0 ? -1 : 1) * (0.3 + 0.7 * random.uniform()), 4);
+    const double y = rounded(2.2 + 0.5 * random.uniform(), 4);
     SceneJson color;
     const double hue = random.uniform();
     for (const double phase : {0.0, 1.0 / 3, 2.0 / 3}) {
       const double wave = 0.5 + 0.5 * std::cos(2 * std::numbers::pi * (hue - phase));
-      color.push_back(rounded(0.25 + 0.75 * wave));
+      color.push_back(rounded(0.25 + 0.75 * wave, 4));
     }
     const std::string type = kKinds[static_cast<std::size_t>(i) % kKinds.size()];
     SceneJson light{{"type", type}, {"position", {x, y, z}}, {"color", color}, {"range", 5}};
     light["movable"] = i % 5 == 4;
     if (type == "spot") {
-      light["target"] = {rounded(-x), 0, rounded(z - 1)};
+      light["target"] = {rounded(-x, 4), 0, rounded(z - 1, 4)};
       light["inner_deg"] = 20;
       light["outer_deg"] = 40;
       light["strength"] = 3;

@@ -65,6 +65,11 @@ double noise(double x, double y, unsigned seed, int period) {
   return top * (1 - v) + bottom * v;
 }
 
+double rounded(double value, int decimals) {
+  const double scale = std::pow(10.0, decimals);
+  return std::round(value * scale) / scale;
+}
+
 double rough_noise(double x, double y, unsigned seed, int period) {
   double sum = 0, size = 0.5, step = 1;
   for (unsigned octave = 0; octave < 4; ++octave, size /= 2, step *= 2)

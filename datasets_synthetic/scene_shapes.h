@@ -25,6 +25,9 @@ scene::Mesh mesh_of(const Surface& surface, int steps_s, int steps_t);
 // quintic curves (Perlin 2002). Repeats after `period` in x if that is above 0.
 double noise(double x, double y, unsigned seed, int period = 0);
 
+// To so many decimals, as a scene file states it.
+double rounded(double value, int decimals);
+
 // Sum of four octaves of it, in about [-1, 1].
 double rough_noise(double x, double y, unsigned seed, int period = 0);
 

@@ -6,18 +6,18 @@
 
 #include "datasets_synthetic/scene.h"
 #include "datasets_synthetic/scene_files.h"
+#include "datasets_synthetic/scene_shapes.h"
 
 namespace likeness::datasets_synthetic {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
-double rounded(double value) { return std::round(value * 1e6) / 1e6; }
+using std::numbers::pi;
 
 // The way the light travels that comes from `degrees` around the scene, a little from above.
 SceneJson travel(double degrees) {
-  const double turn = degrees * kPi / 180, up = 20 * kPi / 180;
-  return {rounded(-std::sin(turn) * std::cos(up)), rounded(-std::sin(up)), rounded(-std::cos(turn) * std::cos(up))};
+  const double turn = degrees * pi / 180, up = 20 * pi / 180;
+  return {rounded(-std::sin(turn) * std::cos(up), 6), rounded(-std::sin(up), 6),
+          rounded(-std::cos(turn) * std::cos(up), 6)};
 }
 
 void make_sphere(const SceneOptions& options, SceneFiles& files, const SceneJson& material) {
@@ -63,12 +63,12 @@ void make_spheres(const SceneOptions& options, SceneFiles& files) {
                            {"retroreflection", 1},
                            {"smooth_terminator", 0}};
       const double least = kRows[r].most > 1 ? 1 : 0;
-      parameters[kRows[r].parameter] = rounded(least + (kRows[r].most - least) * share);
+      parameters[kRows[r].parameter] = rounded(least + (kRows[r].most - least) * share, 6);
       const std::string name = std::string(kRows[r].name) + "_" + std::to_string(c);
       files.add_material(name, {{"model", "callisto"}, {"parameters", parameters}});
-      files.add_instance(
-          "sphere", name,
-          {{"scale", 0.3}, {"translate", {c - (kColumns - 1) / 2, rounded(1.35 - 0.9 * static_cast<double>(r)), 0}}});
+      files.add_instance("sphere", name,
+                         {{"scale", 0.3},
+                          {"translate", {c - (kColumns - 1) / 2, rounded(1.35 - 0.9 * static_cast<double>(r), 6), 0}}});
     }
   for (int frame = 0; frame < options.frames; ++frame) {
     files.lights() = SceneJson::array();
@@ -76,7 +76,7 @@ void make_spheres(const SceneOptions& options, SceneFiles& files) {
     files.add_light({{"type", "directional"},
                      {"name", "turning"},
                      {"direction", travel(options.light_deg + 360.0 * frame / options.frames)},
-                     {"strength", rounded(kPi)},
+                     {"strength", rounded(pi, 6)},
                      {"movable", options.frames > 1}});
     std::array<char, 32> name{};
     std::snprintf(name.data(), name.size(), "scene_%03d.json", frame);

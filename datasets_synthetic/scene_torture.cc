@@ -11,15 +11,13 @@
 namespace likeness::datasets_synthetic {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
-double rounded(double value) { return std::round(value * 1e5) / 1e5; }
+using std::numbers::pi;
 
 // A fan of triangles whose height is 1e-5 of their length.
 scene::Mesh needles(Random& random) {
   scene::Mesh mesh;
   for (int i = 0; i < 300; ++i) {
-    const double phi = 2 * kPi * random.uniform(), up = random.uniform() * 2 - 1;
+    const double phi = 2 * pi * random.uniform(), up = random.uniform() * 2 - 1;
     const glm::dvec3 along(std::sqrt(1 - up * up) * std::cos(phi), up, std::sqrt(1 - up * up) * std::sin(phi));
     const glm::dvec3 across = glm::dvec3(-along.z, 0, along.x) * 1e-5;
     const auto first = static_cast<scene::Index>(mesh.positions.size());
@@ -106,7 +104,7 @@ void add_materials(SceneFiles& files) {
   // Normals that lean as far as a texel can, another set for the diffuse light.
   const auto waves = [&](const char* name, double count, double lean) {
     return files.add_texture(name, 64, 64, 3, [=](double u, double v, float* channels) {
-      const double x = lean * std::sin(2 * kPi * count * u), y = lean * std::cos(2 * kPi * count * v);
+      const double x = lean * std::sin(2 * pi * count * u), y = lean * std::cos(2 * pi * count * v);
       const double z = std::sqrt(std::max(0.0, 1 - x * x - y * y));
       channels[0] = static_cast<float>(0.5 + 0.5 * x);
       channels[1] = static_cast<float>(0.5 + 0.5 * y);
@@ -184,8 +182,8 @@ void make_torture(const SceneOptions& options, SceneFiles& files) {
   for (int i = 0; i < 5; ++i)
     files.add_instance("plane", "leaf",
                        {{"scale", 0.9},
-                        {"rotate_deg", {90, rounded(20 * random.uniform()), 0}},
-                        {"translate", {2.4, 0.8, rounded(1 - 0.002 * i)}}});
+                        {"rotate_deg", {90, rounded(20 * random.uniform(), 5), 0}},
+                        {"translate", {2.4, 0.8, rounded(1 - 0.002 * i, 5)}}});
   // Shadows between two walls a hair apart.
   files.add_instance("box", "ground", {{"scale", {0.02, 1.5, 1.5}}, {"translate", {3.6, 0.75, -1}}});
   files.add_instance("box", "white", {{"scale", {0.02, 1.5, 1.5}}, {"translate", {3.6202, 0.75, -1}}});

@@ -25,7 +25,7 @@ using Vector = Eigen::VectorXd;
 
 constexpr std::size_t kTaken = 2048;  // texels
 // Scales: sharpness, and how many lights at most have a lobe of it; and one lobe that is the same everywhere.
-constexpr std::array<std::pair<double, std::size_t>, 4> kScales{{{48, 128}, {12, 64}, {3, 40}, {0.75, 20}}};
+constexpr std::array<std::pair<double, std::size_t>, 4> kCandidates{{{48, 128}, {12, 64}, {3, 40}, {0.75, 20}}};
 // The covariance of residuals in two directions, of lobes as near as they come: Matern's of 3/2 of the distance, once
 // differentiable, and a constant; over the variance of what a sample may be off by.
 constexpr double kLength = 0.9, kConstant = 10, kOverNoise = 100;
@@ -108,7 +108,7 @@ Basis prior_of(std::span<const glm::dvec3> to_lights) {
   Basis out;
   if (to_lights.empty()) return out;
   std::vector<std::size_t> ends;
-  for (const auto& [sharpness, most] : kScales) {
+  for (const auto& [sharpness, most] : kCandidates) {
     for (const glm::dvec3& axis : spread_out(to_lights, most)) out.lobes.push_back({axis, sharpness});
     ends.push_back(out.lobes.size());
   }

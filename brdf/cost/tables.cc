@@ -22,7 +22,7 @@ std::string cell(const std::string& text) {
   return out + "\"";
 }
 
-std::string percent(double share) {
+std::string signed_percent(double share) {
   if (std::isnan(share)) return "";
   char text[32];
   std::snprintf(text, sizeof text, "%+.2g %%", 100 * share);
@@ -44,7 +44,7 @@ std::string markdown_of(const FamilyResult& result) {
       out +=
           " | " + (c[p].one_by_one ? "one by one" : digits(c[p].timing.ns) + (c[p].dominated_by.empty() ? "" : "\\*"));
     out += " | " + digits(c[0].accuracy.rms) + " | " + digits(c[0].accuracy.worst);
-    if (has_energy) out += " | " + percent(c[0].accuracy.energy);
+    if (has_energy) out += " | " + signed_percent(c[0].accuracy.energy);
     out += " |\n";
   }
   return out + "<!-- end -->\n";

@@ -35,20 +35,20 @@ std::size_t bin_of(double error) {
 
 // kBlock values of each input and output in N.
 template <class N>
-struct Columns {
+struct SweptColumns {
   std::vector<N> values;
   std::vector<Column<N>> in;
   std::vector<N*> to, out;
 
-  Columns(std::size_t inputs, std::size_t outputs, std::size_t rows) : values((inputs + outputs) * rows) {
+  SweptColumns(std::size_t inputs, std::size_t outputs, std::size_t rows) : values((inputs + outputs) * rows) {
     for (std::size_t i = 0; i < inputs; ++i) {
       in.push_back({values.data() + i * rows, false});
       to.push_back(values.data() + i * rows);
     }
     for (std::size_t i = 0; i < outputs; ++i) out.push_back(values.data() + (inputs + i) * rows);
   }
-  Columns(const Columns&) = delete;
-  Columns& operator=(const Columns&) = delete;
+  SweptColumns(const SweptColumns&) = delete;
+  SweptColumns& operator=(const SweptColumns&) = delete;
 };
 
 // The results of an evaluator, by channel.
@@ -115,8 +115,8 @@ class Sweep {
     const double block_began = cpu_seconds();
     const std::size_t inputs = draw_.count(), outputs = entry_.output_count;
     const auto rows = static_cast<std::size_t>(last - first);
-    Columns<float> single(inputs, outputs, rows);
-    Columns<double> exact(inputs, outputs, rows);
+    SweptColumns<float> single(inputs, outputs, rows);
+    SweptColumns<double> exact(inputs, outputs, rows);
     for (std::size_t row = 0; row < rows; ++row) {
       Random random(stream_, first + row);
       draw_.row(random, single.to.data(), row);
@@ -143,7 +143,7 @@ class Sweep {
   }
 
  private:
-  static std::vector<float> inputs_of(const Columns<float>& single, std::size_t row) {
+  static std::vector<float> inputs_of(const SweptColumns<float>& single, std::size_t row) {
     std::vector<float> inputs;
     for (const float* column : single.to) inputs.push_back(column[row]);
     return inputs;
@@ -151,7 +151,7 @@ class Sweep {
 
   // Counts what may not be.
   template <class N>
-  void check(Swept& swept, const Columns<float>& single, const std::vector<N*>& out, std::size_t rows) const {
+  void check(Swept& swept, const SweptColumns<float>& single, const std::vector<N*>& out, std::size_t rows) const {
     for (std::size_t row = 0; row < rows; ++row) {
       std::size_t worst = out.size();
       bool finite = true, negative = false;
@@ -170,7 +170,7 @@ class Sweep {
     }
   }
 
-  bool is_compared(const Columns<float>& single, std::size_t row) const {
+  bool is_compared(const SweptColumns<float>& single, std::size_t row) const {
     for (std::size_t i = 0; i < draw_.count(); ++i) {
       const float x = std::abs(single.to[i][row]);
       if (x > 0 && x < kLeastCompared && draw_.reaches_zero(i)) return false;
@@ -178,7 +178,8 @@ class Sweep {
     return true;
   }
 
-  void compare(Swept& swept, const Columns<float>& single, const Columns<double>& exact, std::size_t rows) const {
+  void compare(Swept& swept, const SweptColumns<float>& single, const SweptColumns<double>& exact,
+               std::size_t rows) const {
     double most_ulps = kLeastUlps;
     std::vector<double> uncertain;
     for (std::size_t row = 0; row < rows; ++row) {
@@ -215,10 +216,10 @@ class Sweep {
   }
 
   // For each result the sum of what one ulp of each input changes, in double.
-  void change_by_one_ulp(const Columns<float>& single, const Columns<double>& exact, std::size_t row,
+  void change_by_one_ulp(const SweptColumns<float>& single, const SweptColumns<double>& exact, std::size_t row,
                          std::vector<double>& sum) const {
     const std::size_t inputs = draw_.count(), outputs = entry_.output_count;
-    Columns<double> moved(inputs, outputs, inputs);
+    SweptColumns<double> moved(inputs, outputs, inputs);
     for (std::size_t i = 0; i < inputs; ++i)
       for (std::size_t k = 0; k < inputs; ++k) moved.to[i][k] = exact.to[i][row];
     for (std::size_t i = 0; i < inputs; ++i) moved.to[i][i] = double{draw_.beside(i, single.to[i][row])};

@@ -12,7 +12,7 @@
 namespace likeness::eval {
 namespace {
 
-std::string short_number(double value) {
+std::string two_digits(double value) {
   std::array<char, 32> text{};
   std::snprintf(text.data(), text.size(), "%.2g", value);
   return text.data();
@@ -35,7 +35,7 @@ std::string inputs_text(const catalog::Entry& entry, const std::vector<float>& i
 // The cells of one line, as text, for people.
 std::array<std::string, 10> cells_of(const Stressed& result, const Swept& s) {
   const bool compared = s.precision != "double";
-  const auto error = [&](double value) { return compared ? short_number(value) : std::string("-"); };
+  const auto error = [&](double value) { return compared ? two_digits(value) : std::string("-"); };
   const double rows = static_cast<double>(result.rows);
   return {std::string(result.entry->name),
           std::string(s.precision),
@@ -45,12 +45,12 @@ std::array<std::string, 10> cells_of(const Stressed& result, const Swept& s) {
           error(s.quantile(0.999)),
           error(s.worst.value),
           compared
-              ? short_number(100 * static_cast<double>(s.over) / std::max(1.0, static_cast<double>(s.compared))) + " %"
+              ? two_digits(100 * static_cast<double>(s.over) / std::max(1.0, static_cast<double>(s.compared))) + " %"
               : "-",
           !compared               ? "-"
-          : s.ulps.inputs.empty() ? "< " + short_number(kLeastUlps)
-                                  : short_number(s.ulps.value),
-          short_number(rows / s.seconds * 1e-6)};
+          : s.ulps.inputs.empty() ? "< " + two_digits(kLeastUlps)
+                                  : two_digits(s.ulps.value),
+          two_digits(rows / s.seconds * 1e-6)};
 }
 
 constexpr std::array<const char*, 10> kHeads{"model",  "precision", "rows",   "not finite",        "negative",

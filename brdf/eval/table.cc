@@ -52,7 +52,7 @@ class Sink {
   std::optional<files::WholeFile> file_;
 };
 
-std::string short_number(double value) {
+std::string three_digits(double value) {
   std::array<char, 32> digits{};
   const auto [end, error] =
       std::to_chars(digits.data(), digits.data() + digits.size(), value, std::chars_format::general, 3);
@@ -77,12 +77,12 @@ void summarize(const Rows& rows, const Outcome& all, const TableOptions& options
     std::string text = reference.name + ": ";
     if (worst.row == 0) text += "no difference in " + std::to_string(all.rows) + " rows";
     else
-      text += "worst relative difference " + short_number(worst.difference) + " of " + std::to_string(all.rows) +
+      text += "worst relative difference " + three_digits(worst.difference) + " of " + std::to_string(all.rows) +
               " rows, in row " + std::to_string(worst.row) + " (line " + std::to_string(worst.line) +
               "): " + files::number_text(worst.got) + " against " + files::number_text(worst.want);
     if (options.tolerance < std::numeric_limits<double>::infinity())
       text += std::string("; ") + (worst.difference <= options.tolerance ? "within" : "ABOVE") + " the tolerance " +
-              short_number(options.tolerance);
+              three_digits(options.tolerance);
     say(text);
   }
 }

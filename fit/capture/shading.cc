@@ -9,7 +9,7 @@ namespace likeness::capture_fit {
 namespace {
 
 constexpr int kMostRounds = 20;
-constexpr double kStill = 1e-3;  // of the scale: a relative change of the color that ends the rounds
+constexpr double kSettled = 1e-3;  // of the scale: a relative change of the color that ends the rounds
 
 brdf::Vec3<double> local(const glm::dvec3& v, const glm::dvec3& x, const glm::dvec3& y, const glm::dvec3& n) {
   return {glm::dot(v, x), glm::dot(v, y), glm::dot(v, n)};
@@ -87,7 +87,7 @@ void color_of(const Face& face, const FaceShading& shading, double scale, Colore
     for (std::size_t c = 0; c < 3; ++c) sum[c] = std::max(sum[c] / squares_of_d, 0.0);
     const double moved =
         std::max({std::abs(sum[0] - out.color[0]), std::abs(sum[1] - out.color[1]), std::abs(sum[2] - out.color[2])});
-    const bool is_still = moved <= kStill * scale * std::max({sum[0], sum[1], sum[2]});
+    const bool is_still = moved <= kSettled * scale * std::max({sum[0], sum[1], sum[2]});
     out.color = sum;
     out.is_known = true;
     return !is_still;

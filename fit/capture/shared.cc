@@ -22,7 +22,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kMadToSigma = 1.4826;
+constexpr double kToSigma = 1.4826;
 constexpr double kLeastScale = 1e-4;  // of the level: photos are no truer than that
 constexpr double kLeastGain = 0.01;   // of the loss, for a group to be taken; and by what a parameter must move it
 constexpr double kLeastLoss = 1e-6;   // q = 1e-6: a thousandth of the scale
@@ -53,7 +53,7 @@ double scale_of(const std::vector<Face>& faces) {
     if (all.empty()) return kLeastScale;
     const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
     std::nth_element(all.begin(), middle, all.end());
-    scale = std::max(kMadToSigma * std::sqrt(*middle), kLeastScale);
+    scale = std::max(kToSigma * std::sqrt(*middle), kLeastScale);
   }
   return scale;
 }

@@ -13,7 +13,7 @@ namespace likeness::capture_fit {
 namespace {
 
 constexpr std::size_t kAtATime = 8;  // photos between two questions
-constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+constexpr float kUnusable = std::numeric_limits<float>::quiet_NaN();
 
 }  // namespace
 
@@ -39,7 +39,8 @@ Stack read_stack(const capture::Capture& capture, std::size_t camera, const capt
         broken += is_broken ? 1 : 0;
         full += is_full && !is_broken ? 1 : 0;
         below += !is_broken && rgb[0] + rgb[1] + rgb[2] < 0 ? 1 : 0;
-        for (std::size_t c = 0; c < 3; ++c) out.light[(3 * i + c) * count + at] = is_broken || is_full ? kNaN : rgb[c];
+        for (std::size_t c = 0; c < 3; ++c)
+          out.light[(3 * i + c) * count + at] = is_broken || is_full ? kUnusable : rgb[c];
       }
       clipped += full;
       not_finite += broken;

@@ -16,7 +16,7 @@
 namespace likeness::measured {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 constexpr std::size_t kMostRows = 2'000'000, kMostColumns = 32;
 constexpr std::array<std::string_view, 7> kColumns{"theta_i", "theta_o", "phi", "r", "g", "b", "weight"};
 enum Column { kThetaI, kThetaO, kPhi, kR, kG, kB, kWeight };
@@ -107,7 +107,7 @@ class Csv final : public Material {
         refuse_line("column " + in_quotes(title), std::string(kHeader));
       if (place_[known] >= 0) refuse_line("column " + in_quotes(title) + " twice", std::string(kHeader));
       place_[known] = int(columns_);
-      if (known <= kPhi) to_radians_[known] = degrees ? kPi / 180 : 1;
+      if (known <= kPhi) to_radians_[known] = degrees ? pi / 180 : 1;
     }
     for (int c = kThetaI; c <= kB; ++c)
       if (place_[c] < 0) refuse_line("no column \"" + std::string(kColumns[c]) + "\"", std::string(kHeader));
@@ -135,11 +135,11 @@ class Csv final : public Material {
     if (place_[kWeight] < 0) {
       double total = 0;
       for (Scattered& s : rows) {
-        const auto sine = [](double theta) { return std::max(std::sin(theta), std::sin(kPi / 360)); };
+        const auto sine = [](double theta) { return std::max(std::sin(theta), std::sin(pi / 360)); };
         s.weight = float(sine(s.angles[0]) * sine(s.angles[1]));
         total += s.weight;
       }
-      scale_ = 4 * kPi * kPi / total;
+      scale_ = 4 * pi * pi / total;
     }
     samples_ = ScatteredSamples(std::move(rows), kCsvReach);
   }
@@ -169,15 +169,15 @@ class Csv final : public Material {
     }
     for (const Column c : {kThetaI, kThetaO}) {
       const double theta = v[c] * to_radians_[c];
-      if (theta < 0 || theta > kPi / 2 + 1e-5)
+      if (theta < 0 || theta > pi / 2 + 1e-5)
         refuse_line(std::string(kColumns[c]) + " = " + std::to_string(v[c]) + (to_radians_[c] == 1 ? " rad" : " deg"),
                     to_radians_[c] == 1
                         ? "0 to 1.5708; for degrees name the column " + std::string(kColumns[c]) + "_deg"
                         : "0 to 90");
-      v[c] = std::min(theta, kPi / 2);
+      v[c] = std::min(theta, pi / 2);
     }
     if (place_[kWeight] >= 0 && v[kWeight] < 0) refuse_line("weight = " + std::to_string(v[kWeight]), "0 or more");
-    v[kPhi] = std::abs(std::remainder(v[kPhi] * to_radians_[kPhi], 2 * kPi));
+    v[kPhi] = std::abs(std::remainder(v[kPhi] * to_radians_[kPhi], 2 * pi));
     const bool any = v[kR] < 0 || v[kG] < 0 || v[kB] < 0, all = v[kR] < 0 && v[kG] < 0 && v[kB] < 0;
     coverage_.negative += all;
     if (all) return;

@@ -13,7 +13,7 @@
 namespace likeness::measured {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 constexpr std::uint32_t kMostTheta = 720, kMostPhi = 1440;
 constexpr std::size_t kLongestHeader = 65536;
 constexpr std::string_view kData = "MBSDF_DATA=\n", kReflection = "MBSDF_DATA_REFLECTION=\n",
@@ -107,18 +107,18 @@ class Mbsdf final : public Material {
   }
 
   void for_each_sample(const std::function<void(const Sample&)>& visit) const override {
-    const double step = kPi / 2 / theta_;
+    const double step = pi / 2 / theta_;
     Sample sample;
     for (int i = 0; i < theta_; ++i)
       for (int j = 0; j < theta_; ++j)
         for (int k = 0; k < phi_; ++k) {
           const float* value = &f_[3 * index(i, j, k)];
           if (std::isnan(value[0])) continue;
-          directions_at({(i + 0.5) * step, (j + 0.5) * step, (k + 0.5) * kPi / phi_}, sample.to_light, sample.to_view);
+          directions_at({(i + 0.5) * step, (j + 0.5) * step, (k + 0.5) * pi / phi_}, sample.to_light, sample.to_view);
           sample.f = {value[0], value[1], value[2]};
           // 2 pi of azimuth, both sides of the mirror plane, and both polar cells whole.
-          sample.weight = 2 * kPi * (std::cos(i * step) - std::cos((i + 1) * step)) *
-                          (std::cos(j * step) - std::cos((j + 1) * step)) * 2 * kPi / phi_;
+          sample.weight = 2 * pi * (std::cos(i * step) - std::cos((i + 1) * step)) *
+                          (std::cos(j * step) - std::cos((j + 1) * step)) * 2 * pi / phi_;
           visit(sample);
         }
   }
@@ -181,7 +181,7 @@ class Mbsdf final : public Material {
   }
 
   bool interpolate(const Elevations& e, Rgb& f) const {
-    const Between a(e.theta_i / (kPi / 2), theta_), b(e.theta_o / (kPi / 2), theta_), c(e.phi / kPi, phi_);
+    const Between a(e.theta_i / (pi / 2), theta_), b(e.theta_o / (pi / 2), theta_), c(e.phi / pi, phi_);
     const auto nearest = [](const Between& x) { return x.towards_high < 0.5 ? x.low : x.high; };
     if (std::isnan(f_[3 * index(nearest(a), nearest(b), nearest(c))])) return false;
     double sum[3]{}, total = 0;

@@ -10,7 +10,7 @@
 namespace likeness::measured {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 // floor(n x) for x in 0..1, the last bin at and beyond 1.
 int bin_of(double x, int n) { return std::clamp(static_cast<int>(x * n), 0, n - 1); }
@@ -28,7 +28,7 @@ struct Axis {
 
 HalfAngles merl_bin_centre(const MerlSize& size, int theta_h, int theta_d, int phi_d) {
   const double h = (theta_h + 0.5) / size.theta_h;
-  return {h * h * kPi / 2, (theta_d + 0.5) / size.theta_d * kPi / 2, (phi_d + 0.5) / size.phi_d * kPi};
+  return {h * h * pi / 2, (theta_d + 0.5) / size.theta_d * pi / 2, (phi_d + 0.5) / size.phi_d * pi};
 }
 
 Merl::Merl(std::string bytes, std::string name, MerlSize size) : bytes_(std::move(bytes)), size_(size) {
@@ -61,9 +61,9 @@ Merl::Merl(std::string bytes, std::string name, MerlSize size) : bytes_(std::mov
 }
 
 std::size_t Merl::bin(const HalfAngles& angles) const {
-  const int h = bin_of(std::sqrt(std::max(0.0, angles.theta_h) / (kPi / 2)), size_.theta_h);
-  const int d = bin_of(angles.theta_d / (kPi / 2), size_.theta_d);
-  const int p = bin_of(angles.phi_d / kPi, size_.phi_d);
+  const int h = bin_of(std::sqrt(std::max(0.0, angles.theta_h) / (pi / 2)), size_.theta_h);
+  const int d = bin_of(angles.theta_d / (pi / 2), size_.theta_d);
+  const int p = bin_of(angles.phi_d / pi, size_.phi_d);
   return (std::size_t(h) * size_.theta_d + d) * size_.phi_d + p;
 }
 
@@ -107,14 +107,14 @@ void Merl::for_each_sample(const std::function<void(const Sample&)>& visit) cons
     axis.cosine.push_back(std::cos(angle));
     axis.measure.push_back(measure);
   };
-  const auto edge_h = [&](int i) { return brdf::squared(double(i) / size_.theta_h) * kPi / 2; };
-  const auto edge_d = [&](int i) { return double(i) / size_.theta_d * kPi / 2; };
+  const auto edge_h = [&](int i) { return brdf::squared(double(i) / size_.theta_h) * pi / 2; };
+  const auto edge_d = [&](int i) { return double(i) / size_.theta_d * pi / 2; };
   for (int i = 0; i < size_.theta_h; ++i)
-    add(h, merl_bin_centre(size_, i, 0, 0).theta_h, 2 * kPi * (std::cos(edge_h(i)) - std::cos(edge_h(i + 1))));
+    add(h, merl_bin_centre(size_, i, 0, 0).theta_h, 2 * pi * (std::cos(edge_h(i)) - std::cos(edge_h(i + 1))));
   for (int i = 0; i < size_.theta_d; ++i)
     add(d, merl_bin_centre(size_, 0, i, 0).theta_d,
         2 * (brdf::squared(std::sin(edge_d(i + 1))) - brdf::squared(std::sin(edge_d(i)))));
-  for (int i = 0; i < size_.phi_d; ++i) add(p, merl_bin_centre(size_, 0, 0, i).phi_d, 2 * kPi / size_.phi_d);
+  for (int i = 0; i < size_.phi_d; ++i) add(p, merl_bin_centre(size_, 0, 0, i).phi_d, 2 * pi / size_.phi_d);
 
   Sample sample;
   std::size_t at = 0;

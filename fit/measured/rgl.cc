@@ -14,16 +14,16 @@
 namespace likeness::measured {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-constexpr std::uint64_t kMostTheta = 64, kLargestMap = 512;
+using std::numbers::pi;
+constexpr std::uint64_t kMostOfTheta = 64, kLargestMap = 512;
 constexpr double kHorizon = 1e-6;  // cosine at and below which a direction is on the horizon
 constexpr int kPoints = 3;         // a side and node, of the grid in s that solid angles are summed over
 constexpr int kPointsU = 6;        // the same of the one in u
 
 double elevation(const Direction& d) { return std::atan2(std::sqrt(d.x * d.x + d.y * d.y), d.z); }
-double unit_of_theta(double theta) { return std::sqrt(theta * 2 / kPi); }
+double unit_of_theta(double theta) { return std::sqrt(theta * 2 / pi); }
 double unit_of_phi(double phi) {
-  const double u = phi / (2 * kPi) + 0.5;
+  const double u = phi / (2 * pi) + 0.5;
   return u - std::floor(u);
 }
 
@@ -90,8 +90,8 @@ class Rgl final : public Material {
       const double theta = theta_[t];
       if (std::cos(theta) <= kHorizon) continue;
       const double from = t == 0 ? 0 : (theta_[t - 1] + theta) / 2;
-      const double to = t + 1 == int(theta_.size()) ? std::max(theta, kPi / 2) : (theta + theta_[t + 1]) / 2;
-      for_each_node(t, 2 * kPi * (std::cos(from) - std::cos(to)), visit);
+      const double to = t + 1 == int(theta_.size()) ? std::max(theta, pi / 2) : (theta + theta_[t + 1]) / 2;
+      for_each_node(t, 2 * pi * (std::cos(from) - std::cos(to)), visit);
     }
   }
 
@@ -116,12 +116,12 @@ class Rgl final : public Material {
   }
 
   void read_theta(const Tensor& tensor) {
-    if (tensor.size() < 2 || tensor.size() > kMostTheta)
-      refuse(source, std::to_string(tensor.size()) + " theta_i", "2 to " + std::to_string(kMostTheta));
+    if (tensor.size() < 2 || tensor.size() > kMostOfTheta)
+      refuse(source, std::to_string(tensor.size()) + " theta_i", "2 to " + std::to_string(kMostOfTheta));
     for (std::size_t i = 0; i < tensor.size(); ++i) {
       theta_.push_back(number_at<float>(tensor.data, 4 * i));
       const double before = i == 0 ? -1e-6 : theta_[i - 1];
-      if (!(theta_[i] > before) || !(theta_[i] < kPi / 2 + 1e-3))
+      if (!(theta_[i] > before) || !(theta_[i] < pi / 2 + 1e-3))
         refuse(source, "theta_i[" + std::to_string(i) + "] = " + std::to_string(theta_[i]),
                "rising angles from 0 to pi / 2");
       theta_[i] = std::max(theta_[i], 0.0);  // a rounding below 0 has no square root
@@ -189,12 +189,12 @@ class Rgl final : public Material {
     double measure;
   };
   Pair pair_at(int t, const Point2& u) const {
-    const double theta_m = u.x * u.x * kPi / 2, phi_m = (2 * u.y - 1) * kPi;
+    const double theta_m = u.x * u.x * pi / 2, phi_m = (2 * u.y - 1) * pi;
     const Direction m{std::sin(theta_m) * std::cos(phi_m), std::sin(theta_m) * std::sin(phi_m), std::cos(theta_m)};
     const Direction to_light{std::sin(theta_[t]), 0, std::cos(theta_[t])};
     const double cos_d = dot(to_light, m);
     // d(omega_o) = 4 cos theta_d d(omega_m) and d(omega_m) = sin theta_m 2 pi^2 u.x d(u).
-    return {to_light, m * (2 * cos_d) - to_light, 4 * std::max(cos_d, 0.0) * std::sin(theta_m) * 2 * kPi * kPi * u.x};
+    return {to_light, m * (2 * cos_d) - to_light, 4 * std::max(cos_d, 0.0) * std::sin(theta_m) * 2 * pi * pi * u.x};
   }
 
   // The solid angle of directions to the viewer nearest to each node of theta_i[t], nearest meant in s, and along s.x

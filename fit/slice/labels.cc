@@ -47,7 +47,7 @@ const Glyph* glyph_of(char c) {
   return at == kGlyphs.end() ? nullptr : &*at;
 }
 
-void paint(image::DisplayPicture& picture, int x, int y, const std::array<std::uint8_t, 3>& color) {
+void paint_inside(image::DisplayPicture& picture, int x, int y, const std::array<std::uint8_t, 3>& color) {
   if (x < 0 || y < 0 || x >= picture.width || y >= picture.height) return;
   std::copy(color.begin(), color.end(), picture.at(x, y).begin());
 }
@@ -79,9 +79,9 @@ void write_text(image::DisplayPicture& picture, int x, int y, std::string_view t
   if (lettering.outlined)
     for_each_pixel(text, lettering, [&](int dx, int dy) {
       for (int i = -1; i <= 1; ++i)
-        for (int j = -1; j <= 1; ++j) paint(picture, x + dx + i, y + dy + j, {0, 0, 0});
+        for (int j = -1; j <= 1; ++j) paint_inside(picture, x + dx + i, y + dy + j, {0, 0, 0});
     });
-  for_each_pixel(text, lettering, [&](int dx, int dy) { paint(picture, x + dx, y + dy, lettering.color); });
+  for_each_pixel(text, lettering, [&](int dx, int dy) { paint_inside(picture, x + dx, y + dy, lettering.color); });
 }
 
 image::DisplayPicture with_axes(const image::DisplayPicture& slice, const std::string& title) {
@@ -97,14 +97,14 @@ image::DisplayPicture with_axes(const image::DisplayPicture& slice, const std::s
     }
   for (int i = -1; i <= size; ++i)  // a frame of one pixel
     for (const auto& [x, y] : {std::pair{i, -1}, {i, size}, {-1, i}, {size, i}})
-      paint(out, left + x, top + y, ink.color);
+      paint_inside(out, left + x, top + y, ink.color);
 
   for (const int degrees : {0, 30, 60, 90}) {
     const std::string number = std::to_string(degrees);
     const int along = degrees * size / 90, half = text_width(number, scale) / 2;
     for (int i = 0; i < gap; ++i) {
-      paint(out, left + std::min(along, size), top + size + i, ink.color);
-      paint(out, left - 1 - i, top + size - std::max(along, 1), ink.color);
+      paint_inside(out, left + std::min(along, size), top + size + i, ink.color);
+      paint_inside(out, left - 1 - i, top + size - std::max(along, 1), ink.color);
     }
     write_text(out, left + along - half, top + size + gap + scale, number, ink);
     write_text(out, left - gap - 2 * scale - text_width(number, scale),

@@ -18,7 +18,7 @@
 namespace likeness::olat_calibrate {
 namespace {
 
-using Colors = std::array<std::array<double, 3>, kPatches>;
+using PatchColors = std::array<std::array<double, 3>, kPatches>;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
@@ -61,7 +61,7 @@ Vector3d xyz_of(const image::Lab& lab) {
 
 Vector3d vector(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
 
-std::array<double, kPatches> errors(const Matrix3d& matrix, const Colors& patches, const Reference& reference) {
+std::array<double, kPatches> errors(const Matrix3d& matrix, const PatchColors& patches, const Reference& reference) {
   std::array<double, kPatches> out{};
   for (std::size_t i = 0; i < kPatches; ++i)
     out[i] = metric::delta_e_2000(lab_of(to_d50() * matrix * vector(patches[i])), reference.lab[i]);
@@ -70,7 +70,7 @@ std::array<double, kPatches> errors(const Matrix3d& matrix, const Colors& patche
 
 // The matrix with the least sum of fourth powers of Delta E, from `start`: Levenberg's steps on squared errors with
 // slopes by differences (24 residuals, 9 unknowns).
-Matrix3d refined(const Matrix3d& start, const Colors& patches, const Reference& reference) {
+Matrix3d refined(const Matrix3d& start, const PatchColors& patches, const Reference& reference) {
   using Residuals = Eigen::Matrix<double, kPatches, 1>;
   const auto residuals = [&](const Matrix3d& m) {
     const auto e = errors(m, patches, reference);
@@ -118,7 +118,7 @@ glm::dmat3 glm_of(const Matrix3d& m) {
 }  // namespace
 
 Reference reference_of(std::string_view text, const std::string& name) {
-  Colors values{};
+  PatchColors values{};
   std::array<bool, kPatches> found{};
   bool is_xyy = true;
   std::size_t line = 0;
@@ -159,7 +159,7 @@ Reference read_reference(const std::filesystem::path& file) {
   return reference_of(files::read_whole(file, 1 << 20), file.string());
 }
 
-Colors patches_of(const image::Picture& photo, const Corners& corners) {
+PatchColors patches_of(const image::Picture& photo, const Corners& corners) {
   for (std::size_t i = 0; i < 4; ++i) {
     const auto &p = corners[i], &q = corners[(i + 1) % 4], &r = corners[(i + 2) % 4];
     const double turn = (q[0] - p[0]) * (r[1] - q[1]) - (q[1] - p[1]) * (r[0] - q[0]);
@@ -176,7 +176,7 @@ Colors patches_of(const image::Picture& photo, const Corners& corners) {
   }
   const std::array<Point, 4> cells{{{0, 0}, {kPatchColumns, 0}, {kPatchColumns, kPatchRows}, {0, kPatchRows}}};
   const Perspective seen = perspective_of(cells, corners);
-  Colors out{};
+  PatchColors out{};
   constexpr int kSamples = 24;
   constexpr double kMiddle = 0.4;  // of a cell, a side: frames and shadows of frames stay out
   for (std::size_t patch = 0; patch < kPatches; ++patch) {
@@ -199,7 +199,7 @@ Colors patches_of(const image::Picture& photo, const Corners& corners) {
   return out;
 }
 
-ChartFit fit_chart(const Colors& patches, const Reference& reference) {
+ChartFit fit_chart(const PatchColors& patches, const Reference& reference) {
   ChartFit fit;
   // One exposure, by the luminance of the greys but the last, which flare lifts.
   double seen = 0, known = 0;
@@ -211,7 +211,7 @@ ChartFit fit_chart(const Colors& patches, const Reference& reference) {
   if (!(seen > 0 && known > 0)) throw files::UsageError("the grey patches are black; are these the chart's corners?");
   const double exposure = known / seen;
   fit.exposure_ev = std::log2(exposure);
-  Colors exposed = patches;
+  PatchColors exposed = patches;
   for (auto& color : exposed)
     for (double& v : color) v *= exposure;
 

@@ -12,8 +12,8 @@
 namespace likeness::registration {
 namespace {
 
-constexpr double kFloor = 0.05;     // of the mean: below it shadows are all alike
-constexpr std::size_t kFewest = 4;  // pictures whose mean says what they share
+constexpr double kFloor = 0.05;             // of the mean: below it shadows are all alike
+constexpr std::size_t kFewestPictures = 4;  // pictures whose mean says what they share
 constexpr std::size_t kFewestBlocks = 16;
 
 // Without what they share, of length 1.
@@ -28,7 +28,7 @@ std::vector<Sketch> own_part(std::span<const Sketch> sketches) {
     ++count;
   }
   std::vector<double> mean(size, 0.0);
-  if (count >= kFewest)
+  if (count >= kFewestPictures)
     for (const Sketch& s : sketches)
       for (std::size_t i = 0; i < s.size(); ++i) mean[i] += static_cast<double>(s[i]) / static_cast<double>(count);
   std::vector<Sketch> out(sketches.begin(), sketches.end());

@@ -17,10 +17,10 @@ namespace {
 
 constexpr float kBlur =
     1;  // [pixel], of both pictures: what interpolation then does to noise and edges is below 0.01 pixel
-constexpr std::size_t kFewest = 200;     // pixels, for a shift to be told
-constexpr std::size_t kMost = 60'000;    // pixels that a level looks at: sigma is then far below 0.01 pixel
-constexpr double kLeastAgreement = 0.5;  // correlation: two pictures of noise have 0.1, the worst render 0.8
-constexpr double kCauchy = 2.385;        // 95 % efficient for normal noise
+constexpr std::size_t kFewestPixels = 200;  // pixels, for a shift to be told
+constexpr std::size_t kMost = 60'000;       // pixels that a level looks at: sigma is then far below 0.01 pixel
+constexpr double kLeastAgreement = 0.5;     // correlation: two pictures of noise have 0.1, the worst render 0.8
+constexpr double kCauchy = 2.385;           // 95 % efficient for normal noise
 constexpr double kLogOfE = 1.0 / std::numbers::ln2;
 
 // log2 of light above a floor that keeps shadows from being all noise.
@@ -137,7 +137,7 @@ void search(const Level& level, Estimate& estimate) {
   double spacing = 1;
   for (const int radius : {reach + 2, reach / 2 + 1, 1}) {
     const auto pixels = pixels_of(inside(level.weight, radius), reach, spacing);
-    if (pixels.size() < kFewest) continue;
+    if (pixels.size() < kFewestPixels) continue;
     double best = 0;
     for (int dy = -reach; dy <= reach; ++dy)
       for (int dx = -reach; dx <= reach; ++dx) {
@@ -160,7 +160,7 @@ void refine(const Level& level, const Plane& inner, Estimate& estimate) {
   double spacing = 1;
   const auto pixels = pixels_of(inner, 2, spacing);
   estimate.pixels = 0;
-  if (pixels.size() < kFewest) return;
+  if (pixels.size() < kFewestPixels) return;
   std::vector<Sample> samples;
   for (int step = 0; step < 30; ++step) {
     samples.clear();
@@ -174,7 +174,7 @@ void refine(const Level& level, const Plane& inner, Estimate& estimate) {
           {{-static_cast<double>(r.dx), -static_cast<double>(r.dy), 1}, static_cast<double>(r.value), residual});
       if (step == 0) offsets.push_back(static_cast<float>(residual));
     }
-    if (samples.size() < kFewest) return;
+    if (samples.size() < kFewestPixels) return;
     if (step == 0) estimate.gain = static_cast<double>(quantile(offsets, 0.5));
     for (Sample& s : samples) s.residual -= estimate.gain;
     const double scatter = std::max(1.4826 * median_magnitude(samples), 1e-7);

@@ -9,7 +9,7 @@
 namespace likeness::realis {
 namespace {
 
-std::string decibels(double value) { return page::fixed(value, 1) + " dB"; }
+std::string in_decibels(double value) { return page::fixed(value, 1) + " dB"; }
 
 // The disc: where the photographs' lights were, and the light that is moved.
 std::string pad_of(const std::vector<glm::dvec3>& photographed) {
@@ -63,9 +63,9 @@ std::string page_of(const Planes& planes, const PageFacts& facts) {
                      std::string(row_of(planes.format).name) + ", quality " + std::to_string(planes.quality) +
                      "), which smooth shadows and highlights.";
   if (facts.psnr_disc)
-    loss += " Against what likeness realis apply makes of the same light it has " + decibels(*facts.psnr_disc) +
+    loss += " Against what likeness realis apply makes of the same light it has " + in_decibels(*facts.psnr_disc) +
             " over the whole disc" +
-            (facts.psnr_photographed ? ", " + decibels(*facts.psnr_photographed) + " at the rings" : "") +
+            (facts.psnr_photographed ? ", " + in_decibels(*facts.psnr_photographed) + " at the rings" : "") +
             " (PSNR of display values).";
   out += page::element("p", loss);
   out += "<script>\n\"use strict\";\nconst planes = [";

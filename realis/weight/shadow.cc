@@ -9,8 +9,8 @@
 namespace likeness::realis::weight {
 namespace {
 
-constexpr double kDarkest = 0.3, kLightest = 0.7;  // of v on the two sides of a contour
-constexpr double kDeadGap = 0.1;                   // [pixel] what two pictures of the same shadow differ by
+constexpr double kDark = 0.3, kLight = 0.7;  // of v on the two sides of a contour
+constexpr double kDeadGap = 0.1;             // [pixel] what two pictures of the same shadow differ by
 const float kUnknown = std::numeric_limits<float>::quiet_NaN();
 
 // What each texel shows where it is lit, per cosine and irradiance.
@@ -44,8 +44,7 @@ void find_crossings(std::span<const float> v, bool is_photo, std::vector<Crossin
     for (const std::size_t k : {i - 1, i + 2})  // i - 1 of the first is past the end, too
       if (k < v.size() && !std::isnan(v[k]))
         low = std::min(low, static_cast<double>(v[k])), high = std::max(high, static_cast<double>(v[k]));
-    if (low < kDarkest && high > kLightest)
-      out.push_back({static_cast<double>(i) + (0.5 - a) / (b - a), is_photo, rises});
+    if (low < kDark && high > kLight) out.push_back({static_cast<double>(i) + (0.5 - a) / (b - a), is_photo, rises});
   }
 }
 

@@ -68,7 +68,7 @@ int run(const PlanRequest& request) {
   return 0;
 }
 
-constexpr auto kFooter = R"(Examples
+constexpr auto kPlanFooter = R"(Examples
   likeness plan room.json                         a table: on or off, and the fact of the scene that decided it
   likeness plan room.json --out plan.html         the same as a page to look at
   likeness plan room.json --time --out plan.html  and what each effect that is on adds to the time
@@ -89,7 +89,7 @@ void add_plan(CLI::App& program, int& exit_code) {
   app->add_flag("--time", r->times, "Measure what each effect that is on adds, some seconds for each");
   app->add_option("--repeats", r->repeats, "With --time: pairs of readings for each effect")->capture_default_str();
   app->add_option("--force", r->force, "all: every effect, needed or not, as render --force does");
-  app->footer(kFooter);
+  app->footer(kPlanFooter);
   app->callback([r, &exit_code] { exit_code = run(*r); });
 }
 

@@ -19,17 +19,17 @@ void check_same_size(const DisplayPicture& photo, const DisplayPicture& render) 
                               "; both must have the same size");
 }
 
-using Plane = std::vector<double>;
+using LumaPlane = std::vector<double>;
 
-Plane luma(const DisplayPicture& picture) {
-  Plane out(picture.rgb.size() / 3);
+LumaPlane luma(const DisplayPicture& picture) {
+  LumaPlane out(picture.rgb.size() / 3);
   for (std::size_t i = 0; i < out.size(); ++i)
     out[i] = 0.2126 * picture.rgb[3 * i] + 0.7152 * picture.rgb[3 * i + 1] + 0.0722 * picture.rgb[3 * i + 2];
   return out;
 }
 
-Plane product(const Plane& a, const Plane& b) {
-  Plane out(a.size());
+LumaPlane product(const LumaPlane& a, const LumaPlane& b) {
+  LumaPlane out(a.size());
   for (std::size_t i = 0; i < a.size(); ++i) out[i] = a[i] * b[i];
   return out;
 }
@@ -46,17 +46,17 @@ std::array<double, kWindow> gaussian() {
 }
 
 // Weighted means over every window that lies inside: (width - 10) x (height - 10). The Gaussian separates.
-Plane windowed(const Plane& plane, int width, int height) {
+LumaPlane windowed(const LumaPlane& plane, int width, int height) {
   static const std::array<double, kWindow> kWeights = gaussian();
   const int inner_width = width - kWindow + 1, inner_height = height - kWindow + 1;
-  Plane rows(static_cast<std::size_t>(inner_width) * static_cast<std::size_t>(height));
+  LumaPlane rows(static_cast<std::size_t>(inner_width) * static_cast<std::size_t>(height));
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < inner_width; ++x) {
       double sum = 0;
       for (int k = 0; k < kWindow; ++k) sum += kWeights[k] * plane[y * width + x + k];
       rows[y * inner_width + x] = sum;
     }
-  Plane out(static_cast<std::size_t>(inner_width) * static_cast<std::size_t>(inner_height));
+  LumaPlane out(static_cast<std::size_t>(inner_width) * static_cast<std::size_t>(inner_height));
   for (int y = 0; y < inner_height; ++y)
     for (int x = 0; x < inner_width; ++x) {
       double sum = 0;
@@ -86,10 +86,10 @@ double ssim(const DisplayPicture& photo, const DisplayPicture& render) {
     throw std::invalid_argument("ssim: the pictures are " + std::to_string(width) + " x " + std::to_string(height) +
                                 "; both sides must be at least 11, the size of the window");
   constexpr double kC1 = 0.01 * 255 * 0.01 * 255, kC2 = 0.03 * 255 * 0.03 * 255;
-  const Plane x = luma(photo), y = luma(render);
-  const Plane mean_x = windowed(x, width, height), mean_y = windowed(y, width, height);
-  const Plane xx = windowed(product(x, x), width, height), yy = windowed(product(y, y), width, height),
-              xy = windowed(product(x, y), width, height);
+  const LumaPlane x = luma(photo), y = luma(render);
+  const LumaPlane mean_x = windowed(x, width, height), mean_y = windowed(y, width, height);
+  const LumaPlane xx = windowed(product(x, x), width, height), yy = windowed(product(y, y), width, height),
+                  xy = windowed(product(x, y), width, height);
   double sum = 0;
   for (std::size_t i = 0; i < mean_x.size(); ++i) {
     const double mx = mean_x[i], my = mean_y[i];

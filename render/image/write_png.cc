@@ -17,18 +17,18 @@ namespace {
 constexpr int kCompression = 3;  // against 6, a report grows by 9 % and takes a quarter less time
 
 // What libpng calls back. It is C: nothing is thrown through it, it jumps.
-struct Sink {
+struct PngSink {
   std::string bytes, error;
 };
 void on_error(png_structp png, png_const_charp message) {
-  static_cast<Sink*>(png_get_error_ptr(png))->error = message;
+  static_cast<PngSink*>(png_get_error_ptr(png))->error = message;
   png_longjmp(png, 1);
 }
 void on_warning(png_structp, png_const_charp) {}
 void on_bytes(png_structp png, png_bytep data, std::size_t size) {
   bool is_full = false;
   try {
-    static_cast<Sink*>(png_get_io_ptr(png))->bytes.append(reinterpret_cast<const char*>(data), size);
+    static_cast<PngSink*>(png_get_io_ptr(png))->bytes.append(reinterpret_cast<const char*>(data), size);
   } catch (const std::exception&) {
     is_full = true;
   }
@@ -37,7 +37,7 @@ void on_bytes(png_structp png, png_bytep data, std::size_t size) {
 void on_flush(png_structp) {}
 
 // False, with the cause in `sink`, if libpng does not like it. Nothing here has a destructor that a jump would skip.
-bool encode(const std::uint8_t* rgb, int width, int height, Sink& sink) {
+bool encode(const std::uint8_t* rgb, int width, int height, PngSink& sink) {
   png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &sink, on_error, on_warning);
   png_infop info = png ? png_create_info_struct(png) : nullptr;
   if (!info) {
@@ -66,7 +66,7 @@ bool encode(const std::uint8_t* rgb, int width, int height, Sink& sink) {
 }  // namespace
 
 std::string png_bytes(const DisplayPicture& picture) {
-  Sink sink;
+  PngSink sink;
   if (!encode(picture.rgb.data(), picture.width, picture.height, sink))
     throw std::runtime_error("PNG of " + std::to_string(picture.width) + " x " + std::to_string(picture.height) +
                              " pixels: " + sink.error);

@@ -12,7 +12,7 @@
 namespace likeness::light {
 namespace {
 
-constexpr float kPi = std::numbers::pi_v<float>;
+using std::numbers::pi_v;
 
 // A point of a flat light as seen from `point`.
 Towards towards(const glm::vec3& point, const glm::vec3& on_light, const glm::vec3& normal, float area,
@@ -119,13 +119,13 @@ float rectangle_pdf(const scene::RectangleLight& light, const glm::vec3& point, 
 
 Towards sample_disk(const scene::DiskLight& light, const glm::vec3& point, const glm::vec2& u) {
   const ray::Frame frame(light.normal);
-  const float radius = light.radius * std::sqrt(u.x), angle = 2 * kPi * u.y;
+  const float radius = light.radius * std::sqrt(u.x), angle = 2 * pi_v<float> * u.y;
   const glm::vec3 on_light = light.center + radius * (std::cos(angle) * frame.x + std::sin(angle) * frame.y);
-  return towards(point, on_light, light.normal, kPi * light.radius * light.radius, light.two_sided);
+  return towards(point, on_light, light.normal, pi_v<float> * light.radius * light.radius, light.two_sided);
 }
 float disk_pdf(const scene::DiskLight& light, const glm::vec3&, const glm::vec3& direction, float distance) {
   const float facing = -glm::dot(direction, light.normal), cosine = light.two_sided ? std::abs(facing) : facing;
-  return cosine > 0 ? distance * distance / (cosine * kPi * light.radius * light.radius) : 0.0f;
+  return cosine > 0 ? distance * distance / (cosine * pi_v<float> * light.radius * light.radius) : 0.0f;
 }
 
 namespace {
@@ -144,15 +144,16 @@ Towards sample_sphere(const scene::SphereLight& light, const glm::vec3& point, c
   if (!(versine > 0)) return {};
   const float distance = std::sqrt(distance2);
   const ray::Frame frame(way / distance);
-  const float v = u.x * versine, cosine = 1 - v, sine = std::sqrt(std::max(v * (2 - v), 0.0f)), angle = 2 * kPi * u.y;
+  const float v = u.x * versine, cosine = 1 - v, sine = std::sqrt(std::max(v * (2 - v), 0.0f)),
+              angle = 2 * pi_v<float> * u.y;
   const glm::vec3 direction = frame.world({sine * std::cos(angle), sine * std::sin(angle), cosine});
   const float across2 = light.radius * light.radius - distance2 * sine * sine;  // of the half chord
-  return {direction, distance * cosine - std::sqrt(std::max(across2, 0.0f)), 1 / (2 * kPi * versine)};
+  return {direction, distance * cosine - std::sqrt(std::max(across2, 0.0f)), 1 / (2 * pi_v<float> * versine)};
 }
 float sphere_pdf(const scene::SphereLight& light, const glm::vec3& point) {
   const glm::vec3 way = light.center - point;
   const float versine = versine_of_cone(light, glm::dot(way, way));
-  return versine > 0 ? 1 / (2 * kPi * versine) : 0.0f;
+  return versine > 0 ? 1 / (2 * pi_v<float> * versine) : 0.0f;
 }
 
 }  // namespace likeness::light

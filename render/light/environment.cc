@@ -12,10 +12,8 @@
 namespace likeness::light {
 namespace {
 
-constexpr float kPi = std::numbers::pi_v<float>;
+using std::numbers::pi_v;
 constexpr int kMostColumns = 1024;  // of the grid that directions are chosen by
-
-float brightness(const glm::vec3& c) { return 0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b; }
 
 // Of the angle to the poles: d.y has lost it there.
 float sine_of(const glm::vec3& d) { return std::sqrt(d.x * d.x + d.z * d.z); }
@@ -57,7 +55,7 @@ Environment::Environment(const scene::Scene& scene, const scene::Environment& en
       float around = 0;
       for (int dy = -1; dy <= 1; ++dy)
         for (int dx = -1; dx <= 1; ++dx) around += at((x + dx + columns) % columns, std::clamp(y + dy, 0, rows - 1));
-      const float sine = std::sin((static_cast<float>(y) + 0.5f) / static_cast<float>(rows) * kPi);
+      const float sine = std::sin((static_cast<float>(y) + 0.5f) / static_cast<float>(rows) * pi_v<float>);
       weights[static_cast<std::size_t>(y) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(x)] =
           (0.5f * at(x, y) + 0.5f * around / 9) * sine;
     }
@@ -65,11 +63,11 @@ Environment::Environment(const scene::Scene& scene, const scene::Environment& en
 }
 
 glm::vec2 Environment::place_of(const glm::vec3& d) const {
-  const float u = 0.5f + (std::atan2(d.x, -d.z) + turn_) / (2 * kPi);
-  return {u - std::floor(u), std::atan2(sine_of(d), d.y) / kPi};
+  const float u = 0.5f + (std::atan2(d.x, -d.z) + turn_) / (2 * pi_v<float>);
+  return {u - std::floor(u), std::atan2(sine_of(d), d.y) / pi_v<float>};
 }
 glm::vec3 Environment::direction_at(const glm::vec2& place) const {
-  const float phi = (place.x - 0.5f) * 2 * kPi - turn_, theta = place.y * kPi, sine = std::sin(theta);
+  const float phi = (place.x - 0.5f) * 2 * pi_v<float> - turn_, theta = place.y * pi_v<float>, sine = std::sin(theta);
   return {sine * std::sin(phi), std::cos(theta), -sine * std::cos(phi)};
 }
 
@@ -88,13 +86,13 @@ glm::vec3 Environment::pictured(const glm::vec3& direction) const {
 
 Environment::Choice Environment::sample(const glm::vec2& u) const {
   const auto point = cells_.sample(u);
-  const float sine = std::sin(point.at.y * kPi);
+  const float sine = std::sin(point.at.y * pi_v<float>);
   if (!(sine > 0)) return {};
-  return {direction_at(point.at), point.density / (2 * kPi * kPi * sine)};
+  return {direction_at(point.at), point.density / (2 * pi_v<float> * pi_v<float> * sine)};
 }
 float Environment::pdf(const glm::vec3& direction) const {
   const float sine = sine_of(direction);
-  return sine > 0 ? cells_.density(place_of(direction)) / (2 * kPi * kPi * sine) : 0.0f;
+  return sine > 0 ? cells_.density(place_of(direction)) / (2 * pi_v<float> * pi_v<float> * sine) : 0.0f;
 }
 
 }  // namespace likeness::light

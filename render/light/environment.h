@@ -8,6 +8,9 @@
 
 namespace likeness::light {
 
+// Luminance of linear Rec. 709 [unit of c].
+inline float brightness(const glm::vec3& c) { return 0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b; }
+
 // The light from infinitely far away. Keeps pointers into the scene.
 class Environment {
  public:

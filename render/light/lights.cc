@@ -16,10 +16,8 @@
 namespace likeness::light {
 namespace {
 
-constexpr float kPi = std::numbers::pi_v<float>;
+using std::numbers::pi_v;
 constexpr auto kNotOne = static_cast<std::size_t>(-1);
-
-float brightness(const glm::vec3& c) { return 0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b; }
 
 template <class... F>
 struct Cases : F... {
@@ -197,7 +195,7 @@ float Lights::weight(std::size_t index, const glm::vec3& point, const glm::vec3&
     if (glm::dot(way, normal) < -reach) return 0.0f;
     return power / std::max(glm::dot(way, way), std::max(reach * reach, 1e-12f));
   };
-  if (index >= own + emitters_.size()) return kPi * brightness(environment_->mean_radiance());
+  if (index >= own + emitters_.size()) return pi_v<float> * brightness(environment_->mean_radiance());
   if (index >= own) {
     const Emitter& e = emitters_[index - own];
     return near_to(e.center, e.reach, brightness(e.radiance) * e.area);
@@ -227,10 +225,10 @@ float Lights::weight(std::size_t index, const glm::vec3& point, const glm::vec3&
                         },
                         [&](const scene::DiskLight& l) {
                           if (!l.two_sided && glm::dot(point - l.center, l.normal) <= 0) return 0.0f;
-                          return beside(l.center, l.radius, brightness(l.radiance) * kPi * l.radius * l.radius);
+                          return beside(l.center, l.radius, brightness(l.radiance) * pi_v<float> * l.radius * l.radius);
                         },
                         [&](const scene::SphereLight& l) {
-                          return beside(l.center, l.radius, brightness(l.radiance) * kPi * l.radius * l.radius);
+                          return beside(l.center, l.radius, brightness(l.radiance) * pi_v<float> * l.radius * l.radius);
                         },
                     },
                     light.shape);

@@ -14,7 +14,7 @@
 namespace likeness::runtime {
 namespace {
 
-constexpr float kPi = std::numbers::pi_v<float>;
+using std::numbers::pi_v;
 constexpr int kSourceWidth = 128, kSourceHeight = 64;  // of the picture that is blurred
 
 // Reflectance of a white GGX lobe over the view's cosine and roughness, both at the middle of 32 steps.
@@ -78,12 +78,13 @@ EnvironmentMaps::EnvironmentMaps(const light::Environment& environment) : enviro
           sum += environment.radiance(environment.direction_at(
               {(static_cast<float>(x) + (static_cast<float>(i) + 0.5f) / kPoints) / kSourceWidth,
                (static_cast<float>(y) + (static_cast<float>(j) + 0.5f) / kPoints) / kSourceHeight}));
-      const float top = kPi * static_cast<float>(y) / kSourceHeight,
-                  bottom = kPi * static_cast<float>(y + 1) / kSourceHeight;
+      const float top = pi_v<float> * static_cast<float>(y) / kSourceHeight,
+                  bottom = pi_v<float> * static_cast<float>(y + 1) / kSourceHeight;
       sources[static_cast<std::size_t>(y * kSourceWidth + x)] = {
           environment.direction_at(
               {(static_cast<float>(x) + 0.5f) / kSourceWidth, (static_cast<float>(y) + 0.5f) / kSourceHeight}),
-          sum / static_cast<float>(kPoints * kPoints), (std::cos(top) - std::cos(bottom)) * 2 * kPi / kSourceWidth};
+          sum / static_cast<float>(kPoints * kPoints),
+          (std::cos(top) - std::cos(bottom)) * 2 * pi_v<float> / kSourceWidth};
     }
   });
   for (const Source& s : sources) {
@@ -92,7 +93,8 @@ EnvironmentMaps::EnvironmentMaps(const light::Environment& environment) : enviro
   }
   for (std::size_t k = 0; k < 3; ++k) {
     // Half the sphere by bands: 2 pi, pi, 0.
-    for (std::size_t i = 0; i < 4; ++i) hemisphere_[k].c[i] = irradiance_[k].c[i] * kPi * (i == 0 ? 2.0f : 1.0f);
+    for (std::size_t i = 0; i < 4; ++i)
+      hemisphere_[k].c[i] = irradiance_[k].c[i] * pi_v<float> * (i == 0 ? 2.0f : 1.0f);
     irradiance_[k] = irradiance_[k].convolved_with_cosine();
   }
 

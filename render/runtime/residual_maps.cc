@@ -21,7 +21,6 @@ struct Source {
 };
 
 std::vector<Source> sources_of(const light::Environment& environment) {
-  constexpr float kPi = std::numbers::pi_v<float>;
   std::vector<Source> out(static_cast<std::size_t>(kWidth * kHeight));
   tbb::parallel_for(0, kHeight, [&](int y) {
     for (int x = 0; x < kWidth; ++x) {
@@ -32,8 +31,9 @@ std::vector<Source> sources_of(const light::Environment& environment) {
       for (int j = 0; j < kPoints; ++j)
         for (int i = 0; i < kPoints; ++i)
           sum += environment.radiance(environment.direction_at({place(x, i, kWidth), place(y, j, kHeight)}));
-      const float top = kPi * static_cast<float>(y) / kHeight, bottom = kPi * static_cast<float>(y + 1) / kHeight;
-      const float solid_angle = (std::cos(top) - std::cos(bottom)) * 2 * kPi / kWidth;
+      const float top = std::numbers::pi_v<float> * static_cast<float>(y) / kHeight,
+                  bottom = std::numbers::pi_v<float> * static_cast<float>(y + 1) / kHeight;
+      const float solid_angle = (std::cos(top) - std::cos(bottom)) * 2 * std::numbers::pi_v<float> / kWidth;
       out[static_cast<std::size_t>(y * kWidth + x)] = {
           environment.direction_at({(static_cast<float>(x) + 0.5f) / kWidth, (static_cast<float>(y) + 0.5f) / kHeight}),
           sum * (solid_angle / (kPoints * kPoints))};

@@ -28,10 +28,10 @@ constexpr Kernel distant() {
 // Index: the parts but kDiffuse, which is the lowest bit.
 static_assert(C::kDiffuse == 1);
 template <unsigned... P>
-constexpr std::array<Kernel, sizeof...(P)> kernels_for(std::integer_sequence<unsigned, P...>) {
+constexpr std::array<Kernel, sizeof...(P)> distant_kernels_for(std::integer_sequence<unsigned, P...>) {
   return {distant<2 * P + 1>()...};
 }
-constexpr auto kKernels = kernels_for(std::make_integer_sequence<unsigned, (C::kAllParts + 1) / 2>{});
+constexpr auto kDistantKernels = distant_kernels_for(std::make_integer_sequence<unsigned, (C::kAllParts + 1) / 2>{});
 
 }  // namespace
 
@@ -39,7 +39,7 @@ Kernel distant_callisto_kernel(unsigned parts, bool has_dual_normals) {
   // The kernel of dual normals has Proxima in it.
   if (has_dual_normals || (parts & (C::kDiffuse | C::kRise | C::kRetro)) == 0)
     return callisto_kernel(parts, has_dual_normals);
-  return kKernels[(parts & C::kAllParts) / 2];
+  return kDistantKernels[(parts & C::kAllParts) / 2];
 }
 
 }  // namespace likeness::surface
