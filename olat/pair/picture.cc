@@ -8,6 +8,8 @@
 #include "olat/metric/formulas.h"
 #include "olat/metric/metric.h"
 #include "render/capture/pixels.h"
+#include "render/exposure/curve.h"
+#include "render/exposure/overlay.h"
 #include "render/image/cie_lab.h"
 #include "render/image/flip.h"
 #include "render/image/tone_curve.h"
@@ -15,24 +17,6 @@
 
 namespace likeness::olat_pair {
 
-// Cold below middle grey, warm above it; neighbours differ in lightness too.
-const std::array<std::array<std::uint8_t, 3>, 17> kZoneColors{{{22, 12, 44},
-                                                               {44, 30, 104},
-                                                               {38, 66, 150},
-                                                               {28, 108, 168},
-                                                               {52, 140, 150},
-                                                               {118, 118, 118},
-                                                               {140, 160, 84},
-                                                               {182, 172, 62},
-                                                               {222, 178, 48},
-                                                               {240, 152, 44},
-                                                               {238, 116, 52},
-                                                               {226, 80, 64},
-                                                               {202, 50, 86},
-                                                               {176, 44, 124},
-                                                               {198, 98, 174},
-                                                               {228, 164, 216},
-                                                               {255, 236, 250}}};
 // Blue: the render is brighter. Orange: the photo is. Further is lighter, so that it reads without color.
 const std::array<std::array<float, 3>, 5> kSignedColors{{{0.66f, 0.88f, 1.00f},
                                                          {0.13f, 0.42f, 0.80f},
@@ -86,11 +70,6 @@ image::Lab lab_of(const Color& shown) {
 
 scene::View scene_view(const State& state) { return {state.ev, state.view, "", ""}; }
 
-brdf::GtTonemap<float> float_gt(const brdf::GtTonemap<double>& gt) {
-  return {static_cast<float>(gt.max_brightness), static_cast<float>(gt.contrast), static_cast<float>(gt.linear_start),
-          static_cast<float>(gt.linear_length),  static_cast<float>(gt.black),    static_cast<float>(gt.pedestal)};
-}
-
 // Bright stripes of four in eight pixels: along one diagonal, or the other.
 bool on_stripe(int x, int y, bool rising) { return ((rising ? x + y : x - y) & 7) < 4; }
 
@@ -99,7 +78,7 @@ class Painter {
   Painter(const State& state, const Pair& pair)
       : state_(state),
         pair_(pair),
-        shower_(scene_view(state), float_gt(state.gt)),
+        shower_(scene_view(state), exposure::float_curve(state.gt)),
         limits_(curve_limits(state)),
         scale_(static_cast<float>(std::exp2(state.ev))) {
     const auto metric = metric::metric_of(state.metric);
@@ -120,12 +99,10 @@ class Painter {
     if (state_.channel == Channel::kSigned) return map_color(luminance(light) * scale_, true);
     Color out = encoded(selected(state_.channel, light));
     const float exposed = luminance(light) * scale_;
-    if (state_.overlay == Overlay::kZones) out = zone_color(exposed, x, y);
+    if (state_.overlay == Overlay::kZones) out = exposure::zone_color(exposed, x, y);
     if (state_.overlay == Overlay::kCurve) {
       const Color grey = encoded({luminance(light), luminance(light), luminance(light)});
-      out = exposed < static_cast<float>(limits_[0])   ? mixed(grey, kToeColor, 0.6f)
-            : exposed > static_cast<float>(limits_[1]) ? mixed(grey, kShoulderColor, 0.6f)
-                                                       : grey;
+      out = exposure::curve_color(grey, exposed, limits_, x, y);
     }
     if (state_.zebra) {
       const Color color = encoded(light);
@@ -196,19 +173,6 @@ class Painter {
     shower_.encode(light);
     return light;
   }
-  static Color zone_color(float exposed, int x, int y) {
-    const float zone = brdf::zone_index(brdf::zone_of<float>(exposed, static_cast<float>(brdf::Zones::kMiddleGrey),
-                                                             static_cast<float>(brdf::Zones::kGreyZone)));
-    const auto i = static_cast<std::size_t>(zone);
-    Color out{};
-    for (std::size_t c = 0; c < 3; ++c) out[c] = static_cast<float>(kZoneColors[i][c]) / 255;
-    // Every second zone is hatched: one way below middle grey, the other above, and grey never.
-    const bool below = i < 5;
-    const bool hatched = below ? i % 2 == 1 : i > 5 && i % 2 == 0;
-    if (hatched && ((below ? x - y : x + y) & 7) < 2)
-      for (float& v : out) v *= 0.7f;
-    return out;
-  }
   static Color map_color(float t, bool is_signed) {
     if (std::isnan(t)) return {kSurround, kSurround, kSurround};
     if (is_signed) {
@@ -231,32 +195,7 @@ class Painter {
 
 }  // namespace
 
-std::array<double, 2> curve_limits(const State& state) {
-  if (state.view == "gt") return {state.gt.linear_start, state.gt.shoulder_start()};
-  const view::Shower shower({0, state.view, "", ""});
-  constexpr int kSteps = 16, kFirst = -12 * kSteps, kLast = 8 * kSteps;  // of a stop
-  std::vector<double> light, gamma;
-  double before_x = 0, before_y = 0;
-  for (int k = kFirst; k <= kLast; ++k) {
-    const double x = 0.18 * std::exp2(static_cast<double>(k) / kSteps);
-    Color c{static_cast<float>(x), static_cast<float>(x), static_cast<float>(x)};
-    shower.encode(c);
-    const double y = image::srgb_decode(static_cast<double>(c[1]));
-    if (k > kFirst) {
-      light.push_back(std::sqrt(x * before_x));
-      gamma.push_back(y > 0 && before_y > 0 ? std::log(y / before_y) / std::log(x / before_x) : 0);
-    }
-    before_x = x;
-    before_y = y;
-  }
-  constexpr double kFactor = 1.5;
-  const double middle = gamma[-kFirst];
-  const auto is_line = [&](std::size_t i) { return gamma[i] > middle / kFactor && gamma[i] < middle * kFactor; };
-  std::size_t first = -kFirst, last = first;
-  while (first > 0 && is_line(first - 1)) --first;
-  while (last + 1 < gamma.size() && is_line(last + 1)) ++last;
-  return {first == 0 ? 0 : light[first], light[last]};
-}
+std::array<double, 2> curve_limits(const State& state) { return exposure::curve_limits(scene_view(state), state.gt); }
 
 std::vector<float> flip_map(const State& state, const Pair& pair) {
   const std::size_t count = pair.flaws.size();
@@ -271,7 +210,7 @@ std::vector<float> flip_map(const State& state, const Pair& pair) {
   image::DisplayPicture shown_photo, shown_render;
   const auto metric = metric::metric_of(state.metric);
   if (metric == metric::Metric::kFlip) {
-    const view::Shower shower(scene_view(state), float_gt(state.gt));
+    const view::Shower shower(scene_view(state), exposure::float_curve(state.gt));
     shown_photo = shower.show(pair.photo);
     shown_render = shower.show(render);
     both.shown_photo = &shown_photo;

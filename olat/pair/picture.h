@@ -47,9 +47,7 @@ std::array<double, 3> match_gain(const Pair& pair, bool by_channel);
 // The gain of a state: match_gain of its pair, or the median of those of at most 16 pairs evenly drawn from the capture.
 std::array<double, 3> gain_of(const capture::Capture& capture, const State& state, const Pair& pair);
 
-// Exposed light below which the view's curve is its toe, and above which it is its shoulder: of gt its own m and m + l0;
-// of other views where the slope of display light against scene light, both as logarithms, leaves what it is at middle grey
-// by a factor of 1.5.
+// Exposed light below which the view's curve is its toe, and above which it is its shoulder (exposure::curve_limits).
 std::array<double, 2> curve_limits(const State& state);
 
 // The picture, as large as the photo (twice as wide side by side): zoom and place are the window's affair. A picture that
@@ -59,10 +57,9 @@ image::DisplayPicture picture_of(const State& state, const Pair& pair);
 // Map of FLIP and of HDR-FLIP, 0 to 1, row by row: what the shader is given, since it cannot filter.
 std::vector<float> flip_map(const State& state, const Pair& pair);
 
-// Display colors of the 17 zones, of a signed map at -1, -1/2, 0, 1/2, 1, and of the surround.
-extern const std::array<std::array<std::uint8_t, 3>, 17> kZoneColors;
+// Display colors of a signed map at -1, -1/2, 0, 1/2, 1, and of the surround. Those of zones and of the curve's parts are
+// in render/exposure/overlay.h.
 extern const std::array<std::array<float, 3>, 5> kSignedColors;
-inline constexpr std::array<float, 3> kToeColor{0.16f, 0.42f, 0.86f}, kShoulderColor{0.95f, 0.55f, 0.10f};
 inline constexpr std::array<float, 3> kSensorStripe{0.90f, 0.10f, 0.70f}, kDisplayStripe{0.08f, 0.08f, 0.08f};
 inline constexpr float kSurround = 0.22f;  // display value of what is not a picture, and of what a mask leaves out
 

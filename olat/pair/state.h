@@ -51,7 +51,7 @@ enum class Overlay : unsigned char { kNone, kZones, kCurve };
 inline constexpr std::array kOverlays{
     Choice{"none", "the picture"},
     Choice{"zones", "17 zones of one stop, colored; zone V is grey"},
-    Choice{"curve", "toe blue, line grey, shoulder orange: where the view's curve bends"},
+    Choice{"curve", "toe blue, line grey, shoulder orange, hatched where the view's curve bends"},
 };
 
 struct State {

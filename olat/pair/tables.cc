@@ -8,6 +8,7 @@
 #include "olat/pair/exposure.h"
 #include "olat/pair/picture.h"
 #include "olat/pair/state.h"
+#include "render/exposure/overlay.h"
 #include "render/image/flip.h"
 #include "render/view/color_config.h"
 #include "render/view/view.h"
@@ -76,7 +77,7 @@ std::string tables_json() {
         {{"id", text(a.id)}, {"group", text(a.group)}, {"keys", text(a.keys)}, {"text", text(a.text)}});
   for (const ExposureRow& row : kExposures)
     out["exposures"][text(row.id)] = {{"word", text(row.word)}, {"text", text(row.text)}};
-  out["zones"] = kZoneColors;
+  out["zones"] = exposure::kZoneColors;
   out["grey"] = brdf::Zones::kMiddleGrey;
   out["grey_zone"] = brdf::Zones::kGreyZone;
   out["signed_colors"] = kSignedColors;
@@ -88,8 +89,8 @@ std::string tables_json() {
     const auto c = magma.at(i, 0);
     out["magma"].push_back({c[0] / 255.0, c[1] / 255.0, c[2] / 255.0});
   }
-  out["toe_color"] = kToeColor;
-  out["shoulder_color"] = kShoulderColor;
+  out["toe_color"] = exposure::kToeColor;
+  out["shoulder_color"] = exposure::kShoulderColor;
   out["sensor_stripe"] = kSensorStripe;
   out["display_stripe"] = kDisplayStripe;
   out["surround"] = kSurround;

@@ -108,13 +108,15 @@ float scalar(vec3 c) { return channel == 0 || channel >= 5 ? luminance(c) : sele
 
 bool on_stripe(ivec2 at, bool rising) { return ((rising ? at.x + at.y : at.x - at.y) & 7) < 4; }
 
+// render/exposure/overlay.h: zones, and parts of the curve.
+float hatch(ivec2 at, bool rising) { return ((rising ? at.x + at.y : at.x - at.y) & 7) < 2 ? 0.7 : 1.0; }
+
 vec3 zone_color(float exposed, ivec2 at) {
   float zone = grey_zone + log2(clamp(exposed, 1e-30, 1e30) / grey);
   int i = int(clamp(floor(zone + 0.5), 0.0, 16.0));
   bool below = i < 5;
   bool hatched = below ? i % 2 == 1 : i > 5 && i % 2 == 0;
-  bool dark = hatched && ((below ? at.x - at.y : at.x + at.y) & 7) < 2;
-  return zone_colors[i] * (dark ? 0.7 : 1.0);
+  return zone_colors[i] * (hatched ? hatch(at, !below) : 1.0);
 }
 
 vec3 map_color(float t, bool is_signed) {
@@ -135,8 +137,8 @@ vec3 picture(vec3 light, int flaws, ivec2 at, bool is_render) {
   vec3 result = zone_color(exposed, at);
 #elif OVERLAY == 2
   vec3 result = shown(vec3(y));
-  if (exposed < limits.x) result = mix(result, toe_color, 0.6);
-  else if (exposed > limits.y) result = mix(result, shoulder_color, 0.6);
+  if (exposed < limits.x) result = mix(result, toe_color, 0.6) * hatch(at, false);
+  else if (exposed > limits.y) result = mix(result, shoulder_color, 0.6) * hatch(at, true);
 #else
   vec3 result = shown(selected(light));
 #endif

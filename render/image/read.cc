@@ -147,7 +147,10 @@ Texels read_texels(const std::filesystem::path& file, const ReadOptions& options
 }
 
 Picture read_picture(const std::filesystem::path& file, const ReadOptions& options) {
-  Texels texels = read_texels(file, options);
+  return picture_of(read_texels(file, options));
+}
+
+Picture picture_of(Texels texels) {
   std::array<float, 256> decoded{};
   for (std::size_t k = 0; k < 256; ++k) decoded[k] = static_cast<float>(srgb_decode8(static_cast<std::uint8_t>(k)));
   if (texels.channels == 3 && texels.bytes.empty()) {

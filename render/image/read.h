@@ -48,4 +48,7 @@ Texels decode_texels(std::string_view bytes, const std::string& name, const Read
 // Linear light of a file: floats as they are, bytes decoded by the sRGB curve, grey repeated, alpha left out.
 Picture read_picture(const std::filesystem::path& file, const ReadOptions& options = {});
 
+// The same of texels.
+Picture picture_of(Texels texels);
+
 }  // namespace likeness::image

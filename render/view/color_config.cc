@@ -3,6 +3,7 @@
 
 #include <OpenColorIO/OpenColorIO.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <stdexcept>
 #include <string>
@@ -87,13 +88,16 @@ ocio::TransformRcPtr display_transform(const ocio::ConstConfigRcPtr& config, con
 
 }  // namespace
 
-PixelTransform view_of_config(const std::string& named, const std::string& display, const std::string& view) {
+namespace {
+
+// The file that is named, or else that $OCIO names; empty: neither.
+std::string config_file(const std::string& named) {
   const char* const environment = std::getenv("OCIO");
-  const std::string file = !named.empty() ? named : environment ? environment : "";
-  if (file.empty())
-    throw InputError("view " + in_quotes(view) +
-                     " is none of srgb, gt, khronos, agx and aces, and no OpenColorIO config is named (in the scene's "
-                     "view, or by $OCIO)");
+  return !named.empty() ? named : environment != nullptr ? environment : "";
+}
+
+template <class Use>
+auto with_config(const std::string& file, Use use) {
   // OpenColorIO reads what it is given whatever it is; a folder or a file of gigabytes is refused here.
   constexpr std::size_t kMostBytes = std::size_t{64} << 20;
   files::read_whole(file, kMostBytes);
@@ -101,22 +105,62 @@ PixelTransform view_of_config(const std::string& named, const std::string& displ
   try {
     const ocio::ConstConfigRcPtr config = ocio::Config::CreateFromFile(file.c_str());
     config->validate();
-    std::vector<std::string> displays, views;
-    for (int i = 0; i < config->getNumDisplays(); ++i) displays.emplace_back(config->getDisplay(i));
-    const std::string on = display.empty() ? config->getDefaultDisplay() : display;
-    bool has = false;
-    for (const std::string& d : displays) has = has || d == on;
-    if (!has) unknown(file, "display", on, displays);
-    has = false;
-    for (int i = 0; i < config->getNumViews(on.c_str()); ++i) {
-      views.emplace_back(config->getView(on.c_str(), i));
-      has = has || views.back() == view;
-    }
-    if (!has) unknown(file, "view", view, views);
-    return pixels_of(config->getProcessor(display_transform(config, on, view)));
+    return use(config);
   } catch (const ocio::Exception& e) {
     throw InputError(file + ": OpenColorIO cannot use it (" + one_line(e.what()) + ")");
   }
+}
+
+// What comes first is the default.
+void put_first(std::vector<std::string>& names, const std::string& first) {
+  const auto at = std::find(names.begin(), names.end(), first);
+  if (at != names.end()) std::rotate(names.begin(), at, at + 1);
+}
+
+std::vector<std::string> displays_of(const ocio::ConstConfigRcPtr& config) {
+  std::vector<std::string> out;
+  for (int i = 0; i < config->getNumDisplays(); ++i) out.emplace_back(config->getDisplay(i));
+  put_first(out, config->getDefaultDisplay());
+  return out;
+}
+
+std::vector<std::string> views_on(const ocio::ConstConfigRcPtr& config, const std::string& display) {
+  std::vector<std::string> out;
+  for (int i = 0; i < config->getNumViews(display.c_str()); ++i) out.emplace_back(config->getView(display.c_str(), i));
+  put_first(out, config->getDefaultView(display.c_str()));
+  return out;
+}
+
+void check_listed(const std::string& file, const std::string& what, const std::string& name,
+                  const std::vector<std::string>& names) {
+  if (std::find(names.begin(), names.end(), name) == names.end()) unknown(file, what, name, names);
+}
+
+}  // namespace
+
+std::optional<ConfigViews> views_of_config(const std::string& named) {
+  const std::string file = config_file(named);
+  if (file.empty()) return std::nullopt;
+  return with_config(file, [&](const ocio::ConstConfigRcPtr& config) {
+    ConfigViews out{file, named.empty(), {}};
+    for (const std::string& display : displays_of(config)) out.displays.push_back({display, views_on(config, display)});
+    return std::optional(out);
+  });
+}
+
+PixelTransform view_of_config(const std::string& named, const std::string& display, const std::string& view) {
+  const std::string file = config_file(named);
+  if (file.empty())
+    throw InputError("view " + in_quotes(view) +
+                     " is none of srgb, gt, khronos, agx and aces, and no OpenColorIO config is named (in the scene's "
+                     "view, or by $OCIO)");
+  return with_config(file, [&](const ocio::ConstConfigRcPtr& config) {
+    const std::vector<std::string> displays = displays_of(config);
+    const std::string on = display.empty() ? config->getDefaultDisplay() : display;
+    check_listed(file, "display", on, displays);
+    check_listed(file, "view", view, views_on(config, on));
+    return pixels_of(config->getProcessor(display_transform(config, on, view)));
+  });
 }
 
 namespace {

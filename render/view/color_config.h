@@ -1,7 +1,9 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
+#include <vector>
 
 namespace likeness::view {
 
@@ -11,6 +13,21 @@ using PixelTransform = std::function<void(float* rgb, long count)>;
 
 // A view of an OpenColorIO config file; empty texts: $OCIO and the default display. Throws files::InputError.
 PixelTransform view_of_config(const std::string& config, const std::string& display, const std::string& view);
+
+// What a config offers. The first display, and the first view of each, are their defaults.
+struct ConfigDisplay {
+  std::string name;
+  std::vector<std::string> views;
+};
+struct ConfigViews {
+  std::string file;
+  bool is_of_environment = false;  // named by $OCIO
+  std::vector<ConfigDisplay> displays;
+};
+
+// Of the config file that is named, or else that $OCIO names; nothing where neither does. Throws files::InputError, one line,
+// for a config that cannot be read.
+std::optional<ConfigViews> views_of_config(const std::string& config);
 
 // ACES 1.0 SDR Video for sRGB, from OpenColorIO's built-in transforms.
 PixelTransform aces_view();
