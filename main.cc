@@ -15,6 +15,7 @@
 #include "datasets_synthetic/command.h"
 #include "fit/capture/command.h"
 #include "fit/command.h"
+#include "fit/film/command.h"
 #include "fit/measured/command.h"
 #include "fit/slice/command.h"
 #include "olat/calibrate/command.h"
@@ -46,6 +47,7 @@ constexpr auto kFooter = R"(Examples
   likeness eval ggx --in angles.csv            a column of results for a table of inputs; --list prints every model
   likeness slice callisto --out slice          a picture of how a model, or a measurement, reflects
   likeness cost evaluators --out out/cost      what accuracy costs in time, on this machine
+  likeness film --talk --out out/film          how thick the film on an eye is, and what it reflects
   likeness render room.json                    a picture of a scene; Ctrl-C keeps what there is
   likeness cost room.json --out out/room       what each setting of the run-time pipeline costs and gains on a scene
   likeness plan room.json                      which effects a scene calls for, and why
@@ -130,6 +132,7 @@ int main(int argc, char** argv) try {
   likeness::fit::add_slice(program, exit_code);
   likeness::scene_cost::add_scene(likeness::cost::add_cost(program, exit_code), exit_code);
   likeness::render_command::add_render(program, exit_code);
+  likeness::film::add_film(program, exit_code);
   likeness::render_command::add_plan(program, exit_code);
   likeness::mip::add_mip(program, exit_code);
   CLI::App& olat = likeness::olat::add_olat(program);
