@@ -6,7 +6,7 @@
 #include <numbers>
 #include <vector>
 
-#include "fit/capture/soft_cosine.h"
+#include "brdf/realis/soft_cosine.h"
 #include "realis/weight/samples.h"
 
 namespace likeness::realis {
@@ -54,7 +54,7 @@ Terminator terminator_of(const Subject& s) {
   for (const double spread : kSpreads) {
     double sum = 0;
     for (const Near& n : near) {
-      const double soft = n.render + n.facing * capture_fit::beyond_hard(n.cosine, spread);
+      const double soft = n.render + n.facing * brdf::beyond_hard(n.cosine, spread);
       sum += std::abs(std::log((std::max(soft, out.least * n.facing) + noise) / (n.photo + noise)));
     }
     if (sum < best) best = sum, out.spread = spread;
@@ -68,8 +68,7 @@ void soften(Subject& s, const Terminator& terminator) {
   for (std::size_t t = 0; t < s.texels(); ++t)
     for (std::size_t i = 0; i < s.lights.size(); ++i) {
       const std::size_t at = s.samples_of(t) + i;
-      const double more =
-          s.irradiance_of(i) * capture_fit::beyond_hard(static_cast<double>(s.cosine[at]), terminator.spread);
+      const double more = s.irradiance_of(i) * brdf::beyond_hard(static_cast<double>(s.cosine[at]), terminator.spread);
       for (std::size_t c = 0; c < 3; ++c)
         s.render[at][c] += static_cast<float>(static_cast<double>(s.facing[t][c]) * more);
     }

@@ -4,10 +4,10 @@
 #include <glm/geometric.hpp>
 #include <tbb/parallel_for.h>
 
+#include "brdf/realis/soft_cosine.h"
 #include "fit/capture/capture_fit.h"
 #include "fit/capture/shared.h"
 #include "fit/capture/site.h"
-#include "fit/capture/soft_cosine.h"
 
 namespace likeness::capture_fit {
 
@@ -32,7 +32,7 @@ Shading Relighting::shading(std::size_t light) const {
       const auto at =
           static_cast<std::size_t>(y) * static_cast<std::size_t>(normals.width) + static_cast<std::size_t>(x);
       const capture::Shine& shine = site.shines[0];
-      const double beyond = beyond_hard(glm::dot(normal, shine.to_light), fit_.spread) / std::numbers::pi;
+      const double beyond = brdf::beyond_hard(glm::dot(normal, shine.to_light), fit_.spread) / std::numbers::pi;
       out.diffuse[at] = static_cast<float>(fit_.exposure * shine.irradiance * beyond);
       face_under(site, normal, fit_.exposure, face);
       shade(fit_.material, face, shading);

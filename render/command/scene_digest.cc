@@ -86,9 +86,15 @@ void put(Bytes& out, const baked::Residual& bake) {
     for (const float scale : lobe.scale) out.put(scale);
   }
   out.put_all(bake.luminance), out.put_all(bake.rgb);
+  if (bake.has_mixes()) {
+    out.put_all(bake.mixed), out.put_all(bake.mixes.values), out.put(bake.mixes.decoded[1]);
+    for (const auto& channel : bake.mixes.scale)
+      for (std::size_t j = 0; j < bake.mixes.count; ++j) out.put(channel[j]);
+  }
   if (!bake.surface) return;
   out.put_all(bake.surface->normals.rgb), out.put_all(bake.surface->base_colors.rgb);
   out.put(bake.surface->material.roughness);
+  if (bake.surface->spread > 0 || bake.surface->least > 0) out.put(bake.surface->spread), out.put(bake.surface->least);
 }
 
 void put(Bytes& out, const scene::Light& light) {

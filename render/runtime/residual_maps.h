@@ -17,6 +17,10 @@ namespace likeness::runtime {
 //
 // a_k is the share of the lobe's light above the surface, as if it were spread evenly over its width about m_k. Exact for
 // lobes of which all light arrives above the surface and above the floor, or below the floor; docs/realis.md has the error.
+//
+// Of a bake of mixes the integral itself is kept, mix by mix, for normals on an octahedron: the surface's own normal and the
+// shading normal count as one there. The same holds for the soft end of light (baked::Surface::spread); its `least` is of
+// single lights, and is left out.
 class ResidualMaps {
  public:
   ResidualMaps() = default;
@@ -31,7 +35,14 @@ class ResidualMaps {
     glm::vec3 from{0, 0, 0};   // mean direction, world; shorter than 1 by how far it is spread
     float width = 0;           // sine of that spread
   };
-  std::vector<std::vector<Lobe>> tables_;
+  // Of one bake in one turn: its lobes, or of each normal the mixes' light; and the soft end's, over pi.
+  struct Table {
+    std::vector<Lobe> lobes;
+    std::vector<glm::vec3> mixes, soft;
+  };
+  glm::vec3 of_mixes(const surface::Point& point, const Table& table) const;
+  glm::vec3 of_lobes(const surface::Point& point, const Table& table) const;
+  std::vector<Table> tables_;
   std::vector<std::size_t> table_of_;  // of each instance, in tables_
 };
 

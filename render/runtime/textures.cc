@@ -86,7 +86,7 @@ Pass texture_pass(const plan::Plan& plan) {
   if (point.bound.bumps > 0) at.plain = &point.material->plain_distant_kernel;
   at.groups = std::min(at.groups, 1u);
   const int drawn = point.material->material->residual->jitter;
-  if (drawn == 0 || at.groups == 0) return;
+  if (drawn == 0 || at.is_empty()) return;
   constexpr std::uint32_t kJitter = 0x7f4a7c15u;  // other numbers than those of lights
   sampling::Samples numbers(static_cast<std::uint32_t>(pixel), context.sample, context.settings.seed + kJitter);
   at.place(point.uv, drawn, numbers.next());

@@ -11,6 +11,7 @@
 
 #include "brdf/realis/jitter.h"
 #include "brdf/realis/shade.h"
+#include "brdf/realis/soft_cosine.h"
 #include "render/ray/frame.h"
 #include "render/surface/surfaces.h"
 
@@ -56,12 +57,32 @@ glm::vec3 residual_of(const ResidualAt& at, const std::vector<brdf::RealisTexel<
   return sum;
 }
 
-glm::vec3 with_residual(const Bound& bound, const glm::vec3& f_cos, const glm::vec3& to_light) {
+glm::vec3 mixed_residual(const ResidualAt& at, const glm::vec3& v) {
+  const baked::Residual& bake = *at.bake;
+  const std::size_t each = bake.mixes.count;
+  brdf::RealisMixes::Towards mixes;
+  bake.mixes.towards(brdf::Vec3<float>(v), bake.channels, mixes);
+  glm::vec3 sum(0);
+  for (int i = 0; i < at.texels; ++i) {
+    const std::uint8_t* bytes = bake.mixed.data() + at.pixels[static_cast<std::size_t>(i)] * bake.channels * each;
+    for (std::size_t c = 0; c < bake.channels; ++c, bytes += each)
+      sum[static_cast<int>(c)] += at.shares[static_cast<std::size_t>(i)] * bake.mixes.eval(mixes[c], bytes);
+  }
+  return bake.is_rgb() ? sum : glm::vec3(sum.x);
+}
+
+glm::vec3 with_residual(const Bound& bound, glm::vec3 f_cos, const glm::vec3& to_light) {
   const ResidualAt& at = *bound.residual;
   const glm::vec3 e = at.towards(to_light);
+  glm::vec3 least(0);
+  if (at.is_soft && at.weight > 0) {
+    const glm::vec3 diffuse = at.plain->base_color(bound) * (at.weight * std::numbers::inv_pi_v<float>);
+    f_cos += diffuse * brdf::beyond_hard(to_light.z, static_cast<float>(at.bake->surface->spread));
+    least = diffuse * static_cast<float>(at.bake->surface->least);
+  }
   const auto out = brdf::with_residual(brdf::Rgb<float>(f_cos.r, f_cos.g, f_cos.b), brdf::Rgb<float>(e.r, e.g, e.b),
                                        1.0f, to_light.z, at.bake->floor);
-  return {out.r, out.g, out.b};
+  return glm::max(glm::vec3(out.r, out.g, out.b), least);
 }
 
 // Half of the directions are the model's own, half follow the cosine: what the residual adds is as broad as a diffuse.
@@ -136,8 +157,9 @@ void ResidualAt::place(const glm::vec2& uv, int lobes_drawn, const glm::vec2& ch
 }
 
 glm::vec3 ResidualAt::towards(const glm::vec3& to_light) const {
-  if (!(weight > 0) || groups == 0) return glm::vec3(0);
+  if (!(weight > 0) || is_empty()) return glm::vec3(0);
   const glm::vec3 v = model_from_local * to_light;
+  if (bake->has_mixes()) return weight * mixed_residual(*this, v);
   return weight * (bake->is_rgb() ? residual_of(*this, bake->rgb, v) : residual_of(*this, bake->luminance, v));
 }
 
@@ -171,6 +193,7 @@ void bind_residual(const glm::mat3& model_from_world, float weight, Point& p) {
   at.normal = p.frame.local(p.normal);
   at.model_from_local = model_from_world * glm::mat3(p.frame.x, p.frame.y, p.frame.z);
   at.groups = static_cast<std::uint32_t>(at.bake->groups);
+  at.is_soft = at.bake->surface && (at.bake->surface->spread > 0 || at.bake->surface->least > 0);
   at.place(p.uv, 0, glm::vec2(0));
   p.bound.residual = &at;
 }

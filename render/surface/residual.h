@@ -16,6 +16,8 @@
 //
 //     f cos_i of a light = max(plain f cos_i + weight e max(cos_i, floor), 0)      (brdf/realis/shade.h)
 //
+// Where the bake was made over a surface whose light ends softly (baked::Surface::spread, least), the plain f cos_i is that, too:
+// weight base_color / pi beyond_hard(cos_i, spread) is added to it, and weight least base_color / pi takes the place of 0.
 // That holds above the surface itself (Point), also for directions that the shading normal turns away from. It is cut at 0
 // for each direction.
 namespace likeness::surface {
@@ -30,14 +32,16 @@ struct ResidualAt {
   std::array<std::uint32_t, 4> pixels;
   std::array<float, 4> shares;  // bilinear; their sum is 1
   int texels;                   // of those four that count
-  std::uint32_t groups;         // of eight lobes that are evaluated
-  int drawn;                    // lobes by jitter (then texels is 1); 0: all
+  std::uint32_t groups;         // of eight lobes that are evaluated; of mixes all are
+  int drawn;                    // lobes by jitter (then texels is 1; of mixes all count); 0: all
   float u;                      // of jitter
+  bool is_soft;                 // the bake's surface has a spread or a least
 
   // The texels about uv (clamped), all four or, with jitter, one that `choice` in [0, 1) draws.
   void place(const glm::vec2& uv, int drawn, const glm::vec2& choice);
   // weight e [1/sr] towards a direction of the kernel's frame; e of luminance in all channels.
   glm::vec3 towards(const glm::vec3& to_light) const;
+  bool is_empty() const { return groups == 0 && !bake->has_mixes(); }
 };
 
 // The bake's own properties at the texels, against those of now: RealisFade's weight. `normal` is in model space.

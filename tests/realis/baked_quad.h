@@ -31,6 +31,9 @@ struct Baking {
   double size = 0.05;  // of coefficients [1/sr]
   double floor = 0.3, exposure = 1.7;
   bool is_float = false, has_surface = true;
+  std::size_t mixes = 0;  // 0: coefficients of lobes; else kept is of mixes
+  baked::Bits bits = baked::Bits::kEight;
+  double spread = 0, least = 0;  // of the surface
 };
 
 struct BakedQuad {
@@ -49,7 +52,7 @@ inline BakedQuad write_quad(const std::filesystem::path& folder, const Baking& h
   std::mt19937 random(3);
   std::uniform_real_distribution<float> even(0, 1);
   capture_fit::Fit fit;
-  fit.exposure = how.exposure;
+  fit.exposure = how.exposure, fit.spread = how.spread, fit.least = how.least;
   fit.material.roughness = 0.4, fit.material.diffuse_fresnel = 3;
   fit.normals = image::Picture(kWidth, kHeight), fit.base_colors = image::Picture(kWidth, kHeight);
   for (int y = 0; y < kHeight; ++y)
@@ -70,12 +73,15 @@ inline BakedQuad write_quad(const std::filesystem::path& folder, const Baking& h
   s.bake.channels = how.channels, s.bake.kept = how.kept, s.bake.floor = how.floor;
   for (const glm::dvec3& axis : dome(how.lobes))
     s.bake.basis.lobes.push_back({axis, 9}), s.bake.basis.spread.push_back(1);
-  std::normal_distribution<double> value(0, how.size);
-  const std::size_t each = s.bake.channel_count() * how.lobes;
+  std::normal_distribution<double> value(0, how.size), factor(0, 0.3);
+  for (std::size_t i = 0; i < how.mixes * how.lobes; ++i) s.bake.basis.mix.push_back(factor(random));
+  if (how.mixes > 0) s.bake.basis.spread.assign(how.mixes, 1.0);
+  s.bake.bits = how.bits;
+  const std::size_t functions = std::max<std::size_t>(s.bake.basis.size(), 1);
+  const std::size_t each = s.bake.channel_count() * s.bake.basis.size();
   s.bake.coefficients.resize(s.pixels.size() * each);
   for (std::size_t i = 0; i < s.bake.coefficients.size(); ++i)
-    if ((i / each + i % std::max<std::size_t>(how.lobes, 1)) % std::max<std::size_t>(how.lobes, 1) < how.kept)
-      s.bake.coefficients[i] = static_cast<float>(value(random));
+    if ((i / each + i % functions) % functions < how.kept) s.bake.coefficients[i] = static_cast<float>(value(random));
   write_bake(folder / "bake", s, how.is_float);
   write_surface(folder / "bake", out.surface);
   if (!how.has_surface) std::filesystem::remove(folder / "bake" / "surface.json");

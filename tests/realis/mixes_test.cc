@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "fit/capture/soft_cosine.h"
+#include "brdf/realis/soft_cosine.h"
 #include "realis/bake.h"
 #include "realis/terminator.h"
 #include "tests/realis/domes.h"
@@ -123,9 +123,9 @@ TEST(Terminator, TheMeanOfASpreadCosineIsThatOfManyDraws) {
       const double z = i * 1e-3 * 1.5, w = std::exp(-0.5 * z * z);
       sum += w * std::max(cosine + kSpread * z, 0.0), weight += w;
     }
-    EXPECT_NEAR(std::max(cosine, 0.0) + capture_fit::beyond_hard(cosine, kSpread), sum / weight, 1e-5);
+    EXPECT_NEAR(std::max(cosine, 0.0) + brdf::beyond_hard(cosine, kSpread), sum / weight, 1e-5);
   }
-  EXPECT_EQ(capture_fit::beyond_hard(0.1, 0), 0);
+  EXPECT_EQ(brdf::beyond_hard(0.1, 0.0), 0);
 }
 
 TEST(Terminator, ItFindsTheSpreadAndTheLeastThatPhotographsWereMadeWith) {
@@ -135,7 +135,7 @@ TEST(Terminator, ItFindsTheSpreadAndTheLeastThatPhotographsWereMadeWith) {
   for (std::uint32_t t = 0; t < 4000; ++t) {
     const double cosine = -0.6 + 1.6 * t / 4000.0;
     const auto hard = static_cast<float>(0.2 * std::max(cosine, 0.0));
-    const double soft = 0.2 * (std::max(cosine, 0.0) + capture_fit::beyond_hard(cosine, 0.1));
+    const double soft = 0.2 * (std::max(cosine, 0.0) + brdf::beyond_hard(cosine, 0.1));
     const auto photo = static_cast<float>(std::max(soft, 0.2 * 0.03));
     s.pixels.push_back(t), s.facing.push_back({0.2f, 0.2f, 0.2f}), s.cosine.push_back(static_cast<float>(cosine));
     s.weight.push_back(1), s.render.push_back({hard, hard, hard}), s.photo.push_back({photo, photo, photo});

@@ -35,7 +35,12 @@ TEST_P(Renderers, ShowWhatApplyMakes) {
     const image::Picture frame = frame_of(s);
     // The polynomial in the place of the exponential is right to 7e-6 of the coefficients' sum; textures are floats. Bakes
     // of floats are bytes here: half of a step of eight coefficients.
-    const double allowed = GetParam().baking.is_float ? 8 * 0.5 / 127 * 0.2 / peak(relit.realis) : 2e-5;
+    // Mixes, and lobes of four bits, are a table: right to a percent of the residual, at most 0.4 here.
+    const Baking& baking = GetParam().baking;
+    const bool is_table = baking.mixes > 0 || baking.bits == baked::Bits::kFour;
+    const double allowed = baking.is_float ? 8 * 0.5 / 127 * 0.2 / peak(relit.realis)
+                           : is_table      ? 0.01 * 0.4 / peak(relit.realis)
+                                           : 2e-5;
     EXPECT_LT(largest_difference(frame, relit.realis), allowed) << to_light.x << " " << to_light.y;
     if (GetParam().baking.lobes > 1) {
       EXPECT_GT(largest_difference(frame, relit.render), 0.05) << "there is a residual";
@@ -45,11 +50,16 @@ TEST_P(Renderers, ShowWhatApplyMakes) {
     EXPECT_LT(largest_difference(reference_of(s, 4), frame_of(s, four)), 1e-4);
   }
 }
-INSTANTIATE_TEST_SUITE_P(Realis, Renderers,
-                         testing::Values(Way{"Luminance", {.channels = Channels::kLuminance}}, Way{"Rgb", {}},
-                                         Way{"Dense", {.lobes = 7, .kept = 7}}, Way{"OneLobe", {.lobes = 1, .kept = 1}},
-                                         Way{"Float", {.lobes = 8, .kept = 8, .is_float = true}}),
-                         [](const auto& row) { return std::string(row.param.name); });
+INSTANTIATE_TEST_SUITE_P(
+    Realis, Renderers,
+    testing::Values(Way{"Luminance", {.channels = Channels::kLuminance}}, Way{"Rgb", {}},
+                    Way{"Dense", {.lobes = 7, .kept = 7}}, Way{"OneLobe", {.lobes = 1, .kept = 1}},
+                    Way{"Float", {.lobes = 8, .kept = 8, .is_float = true}}, Way{"Mixes", {.kept = 6, .mixes = 6}},
+                    Way{"MixesOfLuminance", {.kept = 3, .channels = Channels::kLuminance, .mixes = 6}},
+                    Way{"MixesOfFourBits", {.kept = 6, .mixes = 6, .bits = baked::Bits::kFour}},
+                    Way{"LobesOfFourBits", {.lobes = 7, .kept = 7, .bits = baked::Bits::kFour}},
+                    Way{"SoftEnd", {.spread = 0.15, .least = 0.03}}),
+    [](const auto& row) { return std::string(row.param.name); });
 
 // With more than eight lobes a texel the path tracer has all of them, the frame the dominant ones.
 TEST(RenderersWithManyLobes, PathTracerHasThemAllFramesTheDominantOnes) {
@@ -236,29 +246,47 @@ TEST(Residuals, JitterIsRightInTheMean) {
 // direction.
 TEST(Residuals, MapsOfTheEnvironmentComeNearTheIntegral) {
   const TemporaryFolder folder;
-  const BakedQuad quad = write_quad(folder.path(), {.has_surface = false});  // exposure 1
+  for (const std::size_t mixes : {std::size_t{0}, std::size_t{6}}) {
+    const BakedQuad quad =
+        write_quad(folder.path(), {.kept = mixes > 0 ? mixes : 8, .has_surface = false, .mixes = mixes});
+    const std::string sky = R"("environment": {"radiance": 1})";
+    const image::Picture with = frame_of(scene_of_quad(folder.path(), quad, sky)),
+                         plain = frame_of(scene_of_quad(folder.path(), quad, sky, "none"));
+    std::vector<double> expected(with.rgb.size());
+    const auto directions = dome(1500);
+    for (const glm::dvec3& l : directions) {
+      const Residual e(quad.bake.bake, l);
+      for (std::size_t i = 0; i < quad.bake.pixels.size(); ++i) {
+        const float* n = quad.surface.normals.rgb.data() + 3 * i;
+        const auto added = e.at(
+            i, static_cast<double>(n[0]) * l.x + static_cast<double>(n[1]) * l.y + static_cast<double>(n[2]) * l.z);
+        for (std::size_t c = 0; c < 3; ++c)
+          expected[3 * i + c] += added[c] * 2 * std::numbers::pi / static_cast<double>(directions.size());
+      }
+    }
+    double error = 0, whole = 0;
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+      const double d = static_cast<double>(with.rgb[i] - plain.rgb[i]) - expected[i];
+      error += d * d, whole += expected[i] * expected[i];
+    }
+    std::printf("maps of the environment, %zu mixes: residual off by %.3f of its rms\n", mixes,
+                std::sqrt(error / whole));
+    EXPECT_LT(error, 0.2 * 0.2 * whole);
+  }
+}
+
+// Under an even sky the soft end of light adds base_color spread^2: the integral of beyond_hard() over the sphere is pi spread^2.
+TEST(Residuals, MapsOfTheEnvironmentEndSoftly) {
+  const TemporaryFolder folder;
+  const BakedQuad quad = write_quad(folder.path(), {.lobes = 0, .kept = 0, .exposure = 1, .spread = 0.15});
   const std::string sky = R"("environment": {"radiance": 1})";
   const image::Picture with = frame_of(scene_of_quad(folder.path(), quad, sky)),
                        plain = frame_of(scene_of_quad(folder.path(), quad, sky, "none"));
-  std::vector<double> expected(with.rgb.size());
-  const auto directions = dome(1500);
-  for (const glm::dvec3& l : directions) {
-    const Residual e(quad.bake.bake, l);
-    for (std::size_t i = 0; i < quad.bake.pixels.size(); ++i) {
-      const float* n = quad.surface.normals.rgb.data() + 3 * i;
-      const auto added =
-          e.at(i, static_cast<double>(n[0]) * l.x + static_cast<double>(n[1]) * l.y + static_cast<double>(n[2]) * l.z);
-      for (std::size_t c = 0; c < 3; ++c)
-        expected[3 * i + c] += added[c] * 2 * std::numbers::pi / static_cast<double>(directions.size());
-    }
+  for (std::size_t i = 0; i < with.rgb.size(); ++i) {
+    // Cells of the sky are 4 degrees, half of the spread: 2 %.
+    const double expected = static_cast<double>(quad.surface.base_colors.rgb[i]) * 0.15 * 0.15;
+    EXPECT_NEAR(static_cast<double>(with.rgb[i] - plain.rgb[i]), expected, 0.02 * expected + 1e-6);
   }
-  double error = 0, whole = 0;
-  for (std::size_t i = 0; i < expected.size(); ++i) {
-    const double d = static_cast<double>(with.rgb[i] - plain.rgb[i]) - expected[i];
-    error += d * d, whole += expected[i] * expected[i];
-  }
-  std::printf("maps of the environment: residual off by %.3f of its rms\n", std::sqrt(error / whole));
-  EXPECT_LT(error, 0.2 * 0.2 * whole);
 }
 
 std::string complaint_of(const std::filesystem::path& file) {
