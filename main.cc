@@ -31,6 +31,7 @@
 #include "realis/report/command.h"
 #include "render/command/command.h"
 #include "render/cost/command.h"
+#include "render/expose/command.h"
 #include "render/files/files.h"
 #include "render/files/interrupt.h"
 #include "render/mip/command.h"
@@ -46,10 +47,11 @@ constexpr auto kFooter = R"(Examples
   likeness make material --help                make a measured material with known parameters
   likeness eval ggx --in angles.csv            a column of results for a table of inputs; --list prints every model
   likeness slice callisto --out slice          a picture of how a model, or a measurement, reflects
-  likeness cost evaluators --out out/cost      what accuracy costs in time, on this machine
   likeness film --talk --out out/film          how thick the film on an eye is, and what it reflects
+  likeness cost evaluators --out out/cost      what accuracy costs in time, on this machine
   likeness render room.json                    a picture of a scene; Ctrl-C keeps what there is
   likeness cost room.json --out out/room       what each setting of the run-time pipeline costs and gains on a scene
+  likeness expose church.exr --page why.html   an exposure, and why: histogram, zones, what every other would clip
   likeness plan room.json                      which effects a scene calls for, and why
   likeness olat import photos/                 photographs, one light at a time: compare them with renders
   likeness realis bake capture/                what the renders of a capture lack, to be added at run time
@@ -130,10 +132,11 @@ int main(int argc, char** argv) try {
   likeness::datasets_synthetic::add_make(program, exit_code);
   likeness::eval::add_eval(program, exit_code);
   likeness::fit::add_slice(program, exit_code);
+  likeness::film::add_film(program, exit_code);
   likeness::scene_cost::add_scene(likeness::cost::add_cost(program, exit_code), exit_code);
   likeness::render_command::add_render(program, exit_code);
-  likeness::film::add_film(program, exit_code);
   likeness::render_command::add_plan(program, exit_code);
+  likeness::expose::add_expose(program, exit_code);
   likeness::mip::add_mip(program, exit_code);
   CLI::App& olat = likeness::olat::add_olat(program);
   likeness::olat_import::add_import(olat, exit_code);

@@ -16,6 +16,8 @@
 #include "render/command/request.h"
 #include "render/command/scene_digest.h"
 #include "render/command/summary.h"
+#include "render/exposure/overlay.h"
+#include "render/exposure/pick.h"
 #include "render/files/files.h"
 #include "render/files/interrupt.h"
 #include "render/image/write.h"
@@ -23,6 +25,7 @@
 #include "render/runtime/quality.h"
 #include "render/scene/read_scene.h"
 #include "render/view/view.h"
+#include "render/view/view_list.h"
 
 namespace likeness::render_command {
 namespace {
@@ -60,6 +63,17 @@ image::Picture picture_of(const image::Layers& layers) {
   return out;
 }
 
+// The exposure of a picture that a mode picks; 0 where no pixel has light.
+double picked_ev(exposure::Mode mode, const image::Picture& light, const scene::View& view) {
+  exposure::Histogram histogram;
+  histogram.add(light);
+  const exposure::Meter meter(histogram, exposure::curve_of(view));
+  const auto pick = mode == exposure::Mode::kLinear    ? exposure::pick_linear(meter)
+                    : mode == exposure::Mode::kAverage ? exposure::pick_average(meter)
+                                                       : exposure::pick_percentile(meter, 0.99, exposure::white_zone());
+  return pick ? pick->ev : 0;
+}
+
 std::string full_key(const Request& request, const scene::Scene& scene, const reference::Options& options,
                      bool is_forced) {
   return reference::key_of(options, digest_of(scene, options.camera)) + " integrator " + request.integrator +
@@ -67,7 +81,14 @@ std::string full_key(const Request& request, const scene::Scene& scene, const re
 }
 
 int run(const Request& request) {
+  if (request.lists_views) {
+    std::cout << view::list_text(request.config.value_or(""));
+    return 0;
+  }
+  if (request.scene.empty()) throw files::UsageError("SCENE is required");
   const auto start = Clock::now();
+  const exposure::Overlay overlay = exposure::overlay_named("--overlay", request.overlay);
+  const std::optional<exposure::Mode> mode = exposure_of(request);
   reference::Options options = options_of(request);
   const Integrator& integrator = integrator_of(request);
   const bool force = is_forced(request.force);
@@ -132,10 +153,14 @@ int run(const Request& request) {
   rendered.layers.metadata = metadata;
   image::write_layers(paths.picture, rendered.layers);
   if (!rendered.is_interrupted) fs::remove(paths.state, ignored);
-  if (!paths.png.empty()) image::write_png(paths.png, shower.show(picture_of(rendered.layers)));
+  if (!paths.png.empty()) {
+    const image::Picture light = picture_of(rendered.layers);
+    if (mode) scene.view.ev = picked_ev(*mode, light, scene.view);
+    image::write_png(paths.png, exposure::picture_with(overlay, light, scene.view));
+  }
   times.seconds_all = seconds_since(start), times.cpu_seconds_all = cpu_seconds();
 
-  std::cout << (request.json ? summary_json(metadata, paths, rendered, times)
+  std::cout << (request.json ? summary_json(metadata, scene.view, paths, rendered, times)
                              : summary_text(scene, options, paths, rendered, times));
   if (!rendered.is_interrupted) return 0;
   std::cerr << "likeness render: interrupted; " << paths.state.string()
@@ -149,6 +174,7 @@ constexpr auto kFooter = R"(Examples
   likeness render room.json --time 60 --preview now.png  one minute; now.png shows how far it is
   likeness render room.json --error 1e-3 --layers        until the noise is that small; with depth, normals, lobes ...
   likeness render head.glb --ev 1 --view gt              a mesh file alone, a stop brighter, tonemapped
+  likeness render room.json --expose average --overlay zones  exposed for the curve, colored by zone
   likeness render room.json --quality game.json          as a game would, at the quality that likeness cost chose
   likeness render room.json --resume                     goes on after Ctrl-C; the picture is the same
 
@@ -163,7 +189,7 @@ Manual: docs/render.md)";
 void add_render(CLI::App& program, int& exit_code) {
   const auto r = std::make_shared<Request>();
   CLI::App* app = program.add_subcommand("render", "Make a picture of a scene, by following light");
-  app->add_option("SCENE", r->scene, "scene.json, or a mesh file alone: .glb, .gltf, .obj, .ply")->required();
+  app->add_option("SCENE", r->scene, "scene.json, or a mesh file alone: .glb, .gltf, .obj, .ply");
 
   const std::string files = "Files";
   app->add_option("--out", r->out, "The picture as linear light, .exr (default: the scene's name, in this folder)")
@@ -221,6 +247,14 @@ void add_render(CLI::App& program, int& exit_code) {
   app->add_option("--view", r->view, "srgb, gt, khronos, agx, aces, or a view of the OpenColorIO config")->group(shown);
   app->add_option("--display", r->display, "A display of the config")->group(shown);
   app->add_option("--ocio", r->config, "An OpenColorIO config (default: the scene's, else $OCIO)")->group(shown);
+  app->add_flag("--list-views", r->lists_views, "Print every display and view, and end")->group(shown);
+  app->add_option("--expose", r->expose,
+                  "linear, average or percentile: the PNG at the exposure that likeness expose picks (docs/expose.md)")
+      ->group(shown);
+  std::string overlays;
+  for (const exposure::OverlayRow& row : exposure::kOverlays)
+    overlays += (overlays.empty() ? "" : "; ") + std::string(row.name) + ": " + std::string(row.text);
+  app->add_option("--overlay", r->overlay, "Of the PNG. " + overlays)->capture_default_str()->group(shown);
   app->footer(kFooter);
   app->callback([r, app, &exit_code] {
     if (!r->quality.empty() && app->count("--integrator") == 0) r->integrator = "runtime";

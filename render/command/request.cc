@@ -8,6 +8,7 @@
 
 #include "render/command/camera_choice.h"
 #include "render/files/files.h"
+#include "render/view/view_list.h"
 
 namespace likeness::render_command {
 namespace {
@@ -86,6 +87,19 @@ bool is_forced(const std::string& force) {
   return !force.empty();
 }
 
+std::optional<exposure::Mode> exposure_of(const Request& r) {
+  if (r.expose.empty()) return std::nullopt;
+  if (r.ev) throw UsageError("--ev and --expose exclude each other; give one of them");
+  std::string names;
+  for (const exposure::ModeRow& row : exposure::kModes) {
+    if (row.needs_patch) continue;
+    if (row.name == r.expose) return row.mode;
+    names += (names.empty() ? "" : ", ") + std::string(row.name);
+  }
+  throw UsageError("--expose " + files::in_quotes(r.expose) + " is not one of " + names +
+                   " (likeness expose has those that need a patch)");
+}
+
 void apply(const Request& r, scene::Scene& scene, std::size_t camera) {
   if (!r.size.empty()) resize(scene.cameras[camera], size_of(r.size));
   scene::View& view = scene.view;
@@ -93,6 +107,8 @@ void apply(const Request& r, scene::Scene& scene, std::size_t camera) {
   if (r.view) view.name = *r.view;
   if (r.display) view.display = *r.display;
   if (r.config) view.config = *r.config;
+  if (!r.view && (r.display || r.config)) view.name.clear();  // their default view
+  view = view::with_defaults(view);
 }
 
 }  // namespace likeness::render_command

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "render/command/integrators.h"
+#include "render/exposure/pick.h"
 #include "render/scene/scene.h"
 
 namespace likeness::render_command {
@@ -20,6 +21,8 @@ struct Request {
   std::string integrator = "reference", force;
   std::string quality;  // a file: of the run-time pipeline
   std::optional<std::string> view, display, config;
+  std::string overlay = "none", expose;
+  bool lists_views = false;
 };
 
 // The files of a render; empty: not wanted.
@@ -32,6 +35,8 @@ Paths paths_of(const Request& request);
 reference::Options options_of(const Request& request);
 const Integrator& integrator_of(const Request& request);
 bool is_forced(const std::string& force);
+// Of --expose; nothing: it is not given. Those that need a patch are of `likeness expose`.
+std::optional<exposure::Mode> exposure_of(const Request& request);
 
 // Where the command line says something of the view or the size, that.
 void apply(const Request& request, scene::Scene& scene, std::size_t camera);

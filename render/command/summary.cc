@@ -66,9 +66,10 @@ std::string metadata_of(const std::string& file, const scene::Scene& scene, cons
   return text(out, -1);
 }
 
-std::string summary_json(const std::string& metadata, const Paths& paths, const Rendered& rendered,
-                         const Times& times) {
+std::string summary_json(const std::string& metadata, const scene::View& view, const Paths& paths,
+                         const Rendered& rendered, const Times& times) {
   Json out = Json::parse(metadata);
+  out["view"] = {{"name", view.name}, {"ev", view.ev}};
   out["samples_before"] = rendered.samples_before;
   out["seconds"] = times.seconds;
   out["cpu_seconds"] = times.cpu_seconds;

@@ -19,7 +19,8 @@ std::string metadata_of(const std::string& file, const scene::Scene& scene, cons
                         const reference::Options& options, const std::string& integrator, const Rendered& rendered);
 
 // The same with times, memory and files. JSON, for --json.
-std::string summary_json(const std::string& metadata, const Paths& paths, const Rendered& rendered, const Times& times);
+std::string summary_json(const std::string& metadata, const scene::View& view, const Paths& paths,
+                         const Rendered& rendered, const Times& times);
 
 // For people: a line a file.
 std::string summary_text(const scene::Scene& scene, const reference::Options& options, const Paths& paths,
