@@ -29,6 +29,7 @@
 #include "realis/command.h"
 #include "realis/export/command.h"
 #include "realis/report/command.h"
+#include "render/bloom/command.h"
 #include "render/command/command.h"
 #include "render/cost/command.h"
 #include "render/expose/command.h"
@@ -52,6 +53,7 @@ constexpr auto kFooter = R"(Examples
   likeness render room.json                    a picture of a scene; Ctrl-C keeps what there is
   likeness cost room.json --out out/room       what each setting of the run-time pipeline costs and gains on a scene
   likeness expose church.exr --page why.html   an exposure, and why: histogram, zones, what every other would clip
+  likeness bloom fit lamp.exr lamp_glow.exr    how a lens makes lamps glow; bloom apply puts it over renders
   likeness plan room.json                      which effects a scene calls for, and why
   likeness olat import photos/                 photographs, one light at a time: compare them with renders
   likeness realis bake capture/                what the renders of a capture lack, to be added at run time
@@ -138,6 +140,7 @@ int main(int argc, char** argv) try {
   likeness::render_command::add_plan(program, exit_code);
   likeness::expose::add_expose(program, exit_code);
   likeness::mip::add_mip(program, exit_code);
+  likeness::bloom::add_bloom(program);
   CLI::App& olat = likeness::olat::add_olat(program);
   likeness::olat_import::add_import(olat, exit_code);
   likeness::olat_import::add_export(olat, exit_code);

@@ -9,7 +9,7 @@
 namespace likeness::page {
 namespace {
 
-constexpr double kPlotLeft = 58, kPlotRight = 470, kPlotTop = 14, kPlotBottom = 250, kPlotText = 11.5;
+constexpr double kPlotLeft = 64, kPlotRight = 470, kPlotTop = 14, kPlotBottom = 250, kPlotText = 11.5;
 
 struct PlotScale {
   const PlotAxis& axis;
@@ -124,7 +124,7 @@ std::string drawing_of(const LinePlot& plot) {
     legend_row("<circle cx=\"" + number(kPlotLeft + 13, 5) + "\" cy=\"" + number(row, 5) + "\" r=\"3\" fill=\"" +
                    plot.dots.front().color + "\"/>",
                plot.dots_name);
-  const std::string frame = "x=\"58\" y=\"14\" width=\"412\" height=\"236\"";
+  const std::string frame = "x=\"64\" y=\"14\" width=\"406\" height=\"236\"";
   return drawing("0 0 480 " + number(row, 5), plot.title,
                  "<clipPath id=\"" + id + "\"><rect " + frame + "/></clipPath>" + bands + frame_of(x, y) +
                      "<g clip-path=\"url(#" + id + ")\">" + curves + "</g><rect " + frame +
