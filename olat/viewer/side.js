@@ -112,10 +112,11 @@ export function showWedge(root, stage, ev) {
   const line = stage.read(0, y, stage.window.width, 1);
   root.replaceChildren(...kNumerals.map((numeral, zone) => {
     const at = Math.floor(((zone + 0.5) * stage.window.width) / 17), value = line[4 * at + 1], label = document.createElement('span');
+    const stops = zone - tables.grey_zone, ev = (stops > 0 ? '+' : '') + stops;
     label.textContent = numeral;
-    label.append(document.createElement('br'), String(value));
+    label.append(document.createElement('br'), ev, document.createElement('br'), String(value));
     label.style.color = value > 110 ? '#000' : '#fff';
-    label.title = `zone ${numeral}: ${zone - tables.grey_zone >= 0 ? '+' : ''}${zone - tables.grey_zone} EV, shown as ${value}`;
+    label.title = `zone ${numeral}: light of ${ev} EV, shown as code ${value}`;
     return label;
   }));
 }

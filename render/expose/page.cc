@@ -29,9 +29,10 @@ std::string cell(const std::string& text, bool is_warning = false) {
 }
 
 std::string alternatives(const Exposed& e, const image::Picture& thumb) {
-  std::string out =
-      "<div class=\"scroll\"><table><thead><tr><th>mode</th><th>EV</th><th>the first picture</th><th>toe</th>"
-      "<th>linear</th><th>shoulder</th><th>clipped</th><th>crushed</th></tr></thead><tbody>\n";
+  std::string out = "<div class=\"scroll\"><table><thead><tr><th>mode</th><th>EV</th><th>" +
+                    std::string(e.frames > 1 ? "the first picture" : "picture") +
+                    "</th><th>toe</th>"
+                    "<th>linear</th><th>shoulder</th><th>clipped</th><th>crushed</th></tr></thead><tbody>\n";
   for (const Alternative& a : e.alternatives) {
     scene::View view = e.view;
     view.ev = a.ev;
@@ -101,7 +102,7 @@ std::string page_of(const Exposed& e) {
   out += alternatives(e, thumb);
 
   out += page::element("h2", e.frames > 1 ? "The first picture at this exposure" : "The picture at this exposure");
-  out += "<div class=\"plots\">\n";
+  out += "<div class=\"plots\" style=\"grid-template-columns:repeat(auto-fit,minmax(min(100%,500px),1fr))\">\n";
   out += figure(
       e, large, exposure::Overlay::kWedge,
       "As the view shows it. Below: 17 greys a stop apart, added to the light before exposure and view; zone and "

@@ -154,7 +154,7 @@ std::string axes(double most, double step) {
   out += page::svg_text((kLeft + kRight) / 2, kBottom + 42, "middle",
                         "stops above middle grey (0.18), after exposure: luminance of bars, light of the curve", 13);
   for (double share = step; share <= most * 1.0001; share += step)
-    out += page::svg_text(kLeft - 6, y_of(0.8 * share / most) + 4, "end", percent_text(share) + " %", 12) +
+    out += page::svg_text(kLeft - 6, y_of(0.8 * share / most) + 4, "end", page::plain(100 * share) + " %", 12) +
            page::svg_line(kLeft, y_of(0.8 * share / most), kLeft + 5, y_of(0.8 * share / most), "stroke=\"#8a919b\"");
   for (const int code : {0, 64, 128, 192, 255})
     out += page::svg_text(kRight + 6, y_of(code / 255.0) + 4, "start", std::to_string(code), 12,

@@ -146,7 +146,9 @@ Series look_at_scene(const Request& request, const Options& options) {
 
   const fs::path file = request.inputs[0];
   Series out;
-  out.name = file.filename().string();
+  // Most are called scene.json, and their folder says which it is.
+  const fs::path folder = file.parent_path().filename();
+  out.name = (file.filename() == "scene.json" && !folder.empty() ? folder / file.filename() : file.filename()).string();
   out.view = scene.view;
   const auto floor = static_cast<float>(options.floor.value_or(0));
   const std::string mask = request.mask, name = out.name;

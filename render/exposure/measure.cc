@@ -45,11 +45,11 @@ Meter::Meter(const Histogram& histogram, const Curve& curve)
       weight_(histogram.weight()),
       black_(histogram.black_weight()) {}
 
-std::uint64_t Meter::linear_weight(double ev) const {
+std::uint64_t Meter::weight_between(double low, double high, double ev) const {
   const double scale = std::exp2(-ev);
-  const double above = std::nextafter(scale * curve_.shoulder_start, std::numeric_limits<double>::infinity());
-  const std::uint64_t toe = luminance_.below(scale * curve_.toe_end);
-  return std::max(luminance_.below(above), toe) - toe;
+  const std::uint64_t before = luminance_.below(scale * low);
+  const std::uint64_t with = luminance_.below(std::nextafter(scale * high, std::numeric_limits<double>::infinity()));
+  return std::max(with, before) - before;
 }
 std::uint64_t Meter::clipped_weight(double ev) const {
   return brightest_.weight() - brightest_.below(std::exp2(-ev) * curve_.clipped_from);

@@ -51,7 +51,9 @@ class Meter {
   // All shares are 0 where nothing is counted.
   Shares shares(double ev) const;
   // Some of them, faster.
-  std::uint64_t linear_weight(double ev) const;
+  std::uint64_t linear_weight(double ev) const { return weight_between(curve_.toe_end, curve_.shoulder_start, ev); }
+  // Of luminance from `low` to `high`, both included, after exposure.
+  std::uint64_t weight_between(double low, double high, double ev) const;
   std::uint64_t clipped_weight(double ev) const;
   std::uint64_t crushed_weight(double ev) const;
 

@@ -21,7 +21,7 @@ namespace {
 
 using brdf::Zones;
 constexpr int kFields = Zones::kCount;
-constexpr std::uint8_t kSurroundGrey = 40, kLabelGrey = 235;
+constexpr std::uint8_t kSurroundGrey = 40, kLabelGrey = 235, kRowsGrey = 150;
 
 // Where the strip lies, [pixel]. A field is as wide as its longest label, "XVIII" or "100%", needs.
 struct Strip {
@@ -34,7 +34,7 @@ struct Strip {
     scale = std::clamp(width_ / (kFields * kFieldDots), 1, 8);
     width = std::max(width_, kFields * kFieldDots);
     swatch = std::max(16 * scale, width / kFields / 2);
-    height = swatch + 3 * (kLetterHeight + 3) * scale + 3 * scale;
+    height = swatch + 4 * (kLetterHeight + 3) * scale + 5 * scale;
   }
   int first(int field) const { return static_cast<int>(static_cast<long>(field) * width / kFields); }
   int field_at(int x) const {
@@ -69,9 +69,10 @@ void put_color(image::DisplayPicture& out, int x, int y, const DisplayColor& col
     out.at(x, y)[c] = static_cast<std::uint8_t>(255 * std::clamp(color[c], 0.0f, 1.0f) + 0.5f);
 }
 
-// Grey beside and below the picture, and the labels of a field: what `third` says is the last of them.
+// Grey beside and below the picture, and the labels of a field: what `third` says is the last of them. `rows` says what they
+// are.
 template <class Third>
-void finish(image::DisplayPicture& out, const Strip& strip, int picture_width, Third third) {
+void finish(image::DisplayPicture& out, const Strip& strip, int picture_width, std::string_view rows, Third third) {
   fill(out, picture_width, 0, strip.width, strip.picture_height, kSurroundGrey);
   fill(out, 0, strip.picture_height + strip.swatch, strip.width, out.height, kSurroundGrey);
   for (int field = 0; field < kFields; ++field) {
@@ -86,6 +87,7 @@ void finish(image::DisplayPicture& out, const Strip& strip, int picture_width, T
       y += (kLetterHeight + 3) * strip.scale;
     }
   }
+  draw_text(out, 3 * strip.scale, out.height - (kLetterHeight + 3) * strip.scale, rows, strip.scale, kRowsGrey);
 }
 
 image::DisplayPicture wedge_picture(const image::Picture& light, const view::Shower& shower) {
@@ -94,7 +96,8 @@ image::DisplayPicture wedge_picture(const image::Picture& light, const view::Sho
   std::array<int, kFields> codes{};
   for (int field = 0; field < kFields; ++field)
     codes[static_cast<std::size_t>(field)] = out.at(strip.first(field), strip.picture_height)[1];
-  finish(out, strip, light.width, [&](int field) { return std::to_string(codes[static_cast<std::size_t>(field)]); });
+  finish(out, strip, light.width, "rows: zone, EV of the light, display code at this exposure",
+         [&](int field) { return std::to_string(codes[static_cast<std::size_t>(field)]); });
   return out;
 }
 
@@ -138,7 +141,7 @@ image::DisplayPicture zones_picture(const image::Picture& light, double scale) {
   Histogram histogram;
   histogram.add(light);
   const Shares shares = Meter(histogram, {}).shares(std::log2(scale));
-  finish(out, strip, light.width, [&](int field) -> std::string {
+  finish(out, strip, light.width, "rows: zone, EV after exposure, share of the pixels", [&](int field) -> std::string {
     const double share = 100 * shares.zones[static_cast<std::size_t>(field)];
     return share == 0 ? "-" : share < 0.5 ? "<1%" : std::to_string(static_cast<int>(share + 0.5)) + "%";
   });
@@ -169,10 +172,11 @@ image::DisplayPicture curve_picture(const image::Picture& light, const scene::Vi
       }
     }
   });
-  finish(out, strip, light.width, [&](int field) -> std::string {
-    const double exposed = light_of_zone(field);
-    return exposed < limits[0] ? "T" : exposed > limits[1] ? "S" : "L";
-  });
+  finish(out, strip, light.width, "rows: zone, EV after exposure, curve: T toe, L line, S shoulder",
+         [&](int field) -> std::string {
+           const double exposed = light_of_zone(field);
+           return exposed < limits[0] ? "T" : exposed > limits[1] ? "S" : "L";
+         });
   return out;
 }
 

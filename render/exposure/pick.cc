@@ -25,7 +25,8 @@ Score score_of(const Meter& meter, const Limits& limits, double ev) {
   const double all = static_cast<double>(meter.weight());
   const double clipped = static_cast<double>(meter.clipped_weight(ev)) / all;
   const double crushed = static_cast<double>(meter.crushed_weight(ev)) / all;
-  return {std::max(clipped - limits.clipped, 0.0) + std::max(crushed - limits.crushed, 0.0), meter.linear_weight(ev)};
+  return {std::max(clipped - limits.clipped, 0.0) + std::max(crushed - limits.crushed, 0.0),
+          meter.weight_between(line_start(meter.curve()), meter.curve().shoulder_start, ev)};
 }
 
 }  // namespace
@@ -38,6 +39,12 @@ double white_zone() { return Zones::kGreyZone + std::log2(1 / Zones::kMiddleGrey
 
 double ev100(double f_number, double seconds, double iso) {
   return std::log2(f_number * f_number / seconds * 100 / iso);
+}
+
+double line_start(const Curve& curve) {
+  constexpr double kFirstTexture = 1.5;  // the lower border of zone II
+  return curve.toe_end > 0 ? curve.toe_end
+                           : brdf::luminance_of_zone<double>(kFirstTexture, Zones::kMiddleGrey, Zones::kGreyZone);
 }
 
 std::optional<Pick> pick_average(const Meter& meter) {

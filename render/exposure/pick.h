@@ -55,6 +55,10 @@ inline constexpr int kStepsAStop = 64;
 // No exposure is beyond it [stop]: the view's own limit.
 inline constexpr double kMostStops = 100;
 
+// Where the linear part begins for `linear`: where the curve says; of a curve without a toe (srgb) at zone II less half a
+// stop. Below it the Zone System has tone but no texture, and without a beginning the darkest picture would be the best.
+double line_start(const Curve& curve);
+
 // The multiple of 1/64 stop that puts the most weight in the linear part while both shares are at or under their limits.
 // Of several that share the maximum, the middle of the run that holds the one nearest to `average`. Nothing where no pixel
 // has light.
