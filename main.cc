@@ -30,6 +30,7 @@
 #include "realis/export/command.h"
 #include "realis/report/command.h"
 #include "render/bloom/command.h"
+#include "render/blood/command.h"
 #include "render/command/command.h"
 #include "render/cost/command.h"
 #include "render/expose/command.h"
@@ -55,6 +56,7 @@ constexpr auto kFooter = R"(Examples
   likeness expose church.exr --page why.html   an exposure, and why: histogram, zones, what every other would clip
   likeness bloom fit lamp.exr lamp_glow.exr    how a lens makes lamps glow; bloom apply puts it over renders
   likeness plan room.json                      which effects a scene calls for, and why
+  likeness blood spatter --speed high          decals of spatter; blood palette fits colors of blood to a table
   likeness olat import photos/                 photographs, one light at a time: compare them with renders
   likeness realis bake capture/                what the renders of a capture lack, to be added at run time
   likeness realis export capture/ --help       that for relighting programs of others, and as a page to look at
@@ -144,6 +146,7 @@ int main(int argc, char** argv) try {
   CLI::App& olat = likeness::olat::add_olat(program);
   likeness::olat_import::add_import(olat, exit_code);
   likeness::olat_import::add_export(olat, exit_code);
+  likeness::blood::add_blood(program);
   likeness::olat_render::add_render(olat, exit_code);
   likeness::olat_calibrate::add_calibrate(olat, exit_code);
   likeness::olat_check::add_check(olat, exit_code);
