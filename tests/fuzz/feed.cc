@@ -13,6 +13,7 @@
 #include "tests/fuzz/feed_capture.h"
 #include "tests/fuzz/feed_exr.h"
 #include "tests/fuzz/feed_olat.h"
+#include "tests/fuzz/feed_studies.h"
 
 namespace likeness::measured::test {
 namespace {
@@ -35,6 +36,8 @@ bool feed(std::string_view format, std::string_view bytes) {
   for (const std::string_view of_captures : {"capture", "lights_csv", "lp", "dome", "colmap", "colmap_bin"})
     if (format == of_captures) return capture::test::feed_capture(format, bytes);
   if (format == "tev" || format == "state") return olat_pair::test::feed_olat(format, bytes);
+  for (const std::string_view of_studies : {"readings", "blood_table", "bloom_kernel"})
+    if (format == of_studies) return feed_studies(format, bytes);
   for (const std::string_view of_scenes : {"scene", "glb", "ply", "obj", "ies"})
     if (format == of_scenes) return feed_scene(format, bytes);
   std::unique_ptr<Material> material;
