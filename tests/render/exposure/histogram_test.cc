@@ -69,6 +69,7 @@ TEST(Histogram, CountsEachKindOfFloatByItsDefinition) {
   const Distribution light(h.luminance());
   EXPECT_EQ(light.weight(), 5 * Histogram::kWhole);
   EXPECT_EQ(light.below(1e-19), 2 * Histogram::kWhole) << "what is below the first bin is in it";
+  EXPECT_EQ(light.percentile(0), std::exp2(-64)) << "at its beginning";
   EXPECT_NEAR(std::log2(light.percentile(1)), 64, 0.01) << "and what is above the last in that";
 }
 
