@@ -69,7 +69,8 @@ Sampled sampled_of(const Subject& s, std::uint64_t seed, bool by_stops) {
 Bake bake(const Subject& subject, const BakeOptions& options, const GoesOn& goes_on) {
   if (options.is_exact) return bake_with(subject, exact_basis(subject.to_lights), options, goes_on);
   if (options.mixes > 0) {
-    const Mixes mixes(subject, prior_of(subject.to_lights), options.floor, options.seed);
+    const Mixes mixes(subject, prior_of(subject.to_lights, prior_length(subject, options.floor, options.seed)),
+                      options.floor, options.seed);
     return bake_with(subject, mixes.first(options.mixes), options, goes_on);
   }
   std::vector<Choice> choices;

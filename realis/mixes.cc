@@ -25,10 +25,11 @@ using Vector = Eigen::VectorXd;
 
 constexpr std::size_t kTaken = 2048;  // texels
 // Scales: sharpness, and how many lights at most have a lobe of it; and one lobe that is the same everywhere.
-constexpr std::array<std::pair<double, std::size_t>, 4> kCandidates{{{48, 128}, {12, 64}, {3, 40}, {0.75, 20}}};
+constexpr std::array<std::pair<double, std::size_t>, 4> kCandidates{{{128, 96}, {40, 80}, {12, 48}, {4, 24}}};
 // The covariance of residuals in two directions, of lobes as near as they come: Matern's of 3/2 of the distance, once
 // differentiable, and a constant; over the variance of what a sample may be off by.
-constexpr double kLength = 0.9, kConstant = 10, kOverNoise = 100;
+constexpr std::array kLengths{0.3, 0.42, 0.6, 0.9, 1.3, 1.9};
+constexpr double kConstant = 10, kOverNoise = 100;
 
 // Residuals of the luminance of some texels, lights x texels [1/sr].
 Matrix residuals_of(const Subject& s, const Basis& prior, double floor, std::uint64_t seed, std::size_t most) {
@@ -88,14 +89,14 @@ Matrix inverse_of(const Matrix& scaled) {
   return system.selfadjointView<Eigen::Lower>().llt().solve(Matrix::Identity(scaled.cols(), scaled.cols()));
 }
 
-Matrix covariance_of(std::span<const glm::dvec3> to_lights) {
+Matrix covariance_of(std::span<const glm::dvec3> to_lights, double length) {
   const auto count = static_cast<Eigen::Index>(to_lights.size());
   Matrix out(count, count);
   for (Eigen::Index i = 0; i < count; ++i)
     for (Eigen::Index k = 0; k < count; ++k) {
       const double q = std::numbers::sqrt3 *
                        glm::length(to_lights[static_cast<std::size_t>(i)] - to_lights[static_cast<std::size_t>(k)]) /
-                       kLength;
+                       length;
       out(i, k) = kOverNoise * ((1 + q) * std::exp(-q) + kConstant);
     }
   return out;
@@ -104,7 +105,7 @@ Matrix covariance_of(std::span<const glm::dvec3> to_lights) {
 }  // namespace
 
 // Variances of the scales by least squares over all pairs of lights, none below 0: coordinate descent.
-Basis prior_of(std::span<const glm::dvec3> to_lights) {
+Basis prior_of(std::span<const glm::dvec3> to_lights, double length) {
   Basis out;
   if (to_lights.empty()) return out;
   std::vector<std::size_t> ends;
@@ -121,7 +122,7 @@ Basis prior_of(std::span<const glm::dvec3> to_lights) {
     const auto rows = all.middleRows(static_cast<Eigen::Index>(first), static_cast<Eigen::Index>(ends[k] - first));
     made.emplace_back(rows.transpose() * rows);
   }
-  Matrix left = covariance_of(to_lights);
+  Matrix left = covariance_of(to_lights, length);
   std::vector<double> variances(made.size(), 0.0);
   constexpr int kRounds = 500;
   for (int round = 0; round < kRounds; ++round)
@@ -134,6 +135,22 @@ Basis prior_of(std::span<const glm::dvec3> to_lights) {
     std::fill(out.spread.begin() + static_cast<std::ptrdiff_t>(first),
               out.spread.begin() + static_cast<std::ptrdiff_t>(ends[k]), std::sqrt(variances[k]));
   return out;
+}
+
+// Of (K + 1) c = e the residual of a light that is left out is c_i / ((K + 1)^-1)_ii (Rasmussen and Williams 2006, eq. 5.12).
+double prior_length(const Subject& subject, double floor, std::uint64_t seed) {
+  if (subject.lights.size() < kLightsToChoose) return kPriorLength;
+  const Matrix e = residuals_of(subject, prior_of(subject.to_lights), floor, seed, kTaken);
+  double least = HUGE_VAL, best = kPriorLength;
+  for (const double length : kLengths) {
+    const auto lights = e.rows();
+    const Matrix inverse = (covariance_of(subject.to_lights, length) + Matrix::Identity(lights, lights))
+                               .llt()
+                               .solve(Matrix::Identity(lights, lights));
+    const double sum = (inverse.diagonal().cwiseInverse().asDiagonal() * (inverse * e)).squaredNorm();
+    if (sum < least) least = sum, best = length;
+  }
+  return best;
 }
 
 struct Mixes::Work {

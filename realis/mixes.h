@@ -16,7 +16,14 @@ namespace likeness::realis {
 // residuals as functions of the direction (a Gaussian process). It knows where the lights are and nothing of the photographs:
 // fits have seen those, and took out of the residuals what one light would have said of another, so that a search by
 // lights that are left out finds that they say nothing. At most kMostLobes lobes; without lights the basis is empty.
-Basis prior_of(std::span<const glm::dvec3> to_lights);
+// `length` is the distance of unit vectors within which residuals are alike.
+inline constexpr double kPriorLength = 0.9;
+Basis prior_of(std::span<const glm::dvec3> to_lights, double length = kPriorLength);
+
+// Where lights are many, one of them is little of what fits have seen, and the length is the one that foretells each light
+// of some texels best by the others (Gaussian process, in closed form). Below kLightsToChoose lights: kPriorLength.
+inline constexpr std::size_t kLightsToChoose = 40;
+double prior_length(const Subject& subject, double floor, std::uint64_t seed);
 
 // Principal components of the residuals that the prior makes of the samples, as functions of the direction.
 class Mixes {

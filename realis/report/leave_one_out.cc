@@ -279,7 +279,8 @@ class Worker {
     if (!mixes_[left]) {
       const auto begin = Clock::now();
       const Subject others = without(folds_[fold_of(left)], std::span(&left, 1));
-      mixes_[left].emplace(others, prior_of(others.to_lights), options_.floor, options_.seed);
+      mixes_[left].emplace(others, prior_of(others.to_lights, prior_length(others, options_.floor, options_.seed)),
+                           options_.floor, options_.seed);
       choosing_mixes_ += seconds_since(begin) / static_cast<double>(lights());
     }
     return *mixes_[left];
