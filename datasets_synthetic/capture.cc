@@ -343,6 +343,18 @@ MadeCapture make_capture(const CaptureOptions& options) {
                        : std::numeric_limits<double>::infinity();
       frame.file = std::filesystem::path("photos") / capture.cameras[c].id / (capture.lights[l].id + ".exr");
       image::write_exr(capture.root / frame.file, photo, attributes, storage);
+      if (!options.has_pairs) continue;
+      capture::Frame crossed = frame;
+      crossed.kind = capture::FrameKind::kCrossed;
+      crossed.file = std::filesystem::path("photos") / capture.cameras[c].id / (capture.lights[l].id + "_crossed.exr");
+      photo = shoot(options, capture.cameras[c], capture.lights[source],
+                    {faults.shift_x, faults.shift_y, faults.shadow_offset_m, 0});
+      cover(faults, source, photo);
+      expose(faults, gain_of(faults, source), Random(options.seed, 100 + pairs + pair), Random(options.seed, 3 + c),
+             photo);
+      attributes["olat:kind"] = "crossed";
+      image::write_exr(capture.root / crossed.file, photo, attributes, storage);
+      capture.frames.push_back(crossed);
     }
   }
   const std::vector<capture::Frame> once = capture.frames;

@@ -54,6 +54,7 @@ struct CaptureOptions {
   bool has_near_lights = false;  // at 0.6 m, or else distant
   bool is_bumpy = false;         // the ball's normals wave
   bool has_floats = false;       // 32 bit in the place of half
+  bool has_pairs = false;        // each photograph a second time through crossed polarizers: without the residue
   // Cameras and lights only, no picture: photographs will be the renders of the variant "photos", of any scene.
   bool is_template = false;
   std::uint64_t seed = 0;

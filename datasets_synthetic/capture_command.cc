@@ -162,6 +162,8 @@ void add_make_capture(CLI::App& make, int& exit_code) {
   sub->add_flag("--bumpy", options.is_bumpy, "The ball's normals wave");
   sub->add_option("--material", asked->material, "Material file (Callisto at its defaults)");
   sub->add_flag("--float", options.has_floats, "EXR of 32 bit in the place of half");
+  sub->add_flag("--polarized", options.has_pairs,
+                "Each photograph a second time through crossed polarizers: without the lobe of --residue");
   sub->add_option("--seed", asked->seed, "Of noise and of frames that are drawn (0)");
   sub->add_flag("--template", options.is_template,
                 "Cameras and lights only: photographs will be renders of any scene (olat render --variant photos)");

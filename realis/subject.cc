@@ -1,6 +1,7 @@
 #include "realis/subject.h"
 
 #include <algorithm>
+#include <limits>
 #include <string>
 
 #include <tbb/parallel_for.h>
@@ -48,17 +49,23 @@ Subject read_subject(const capture::Capture& capture, std::size_t camera, const 
   const std::size_t lights = s.lights.size(), samples = s.texels() * lights;
   s.photo.resize(samples), s.render.resize(samples), s.cosine.assign(samples, 1.0f), s.weight.assign(samples, 1.0f);
   s.census.resize(lights);
+  constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
+  if (std::any_of(s.lights.begin(), s.lights.end(),
+                  [&](std::size_t light) { return frames.crossed(camera, light) != capture::kAbsent; }))
+    s.crossed.assign(samples, {kNone, kNone, kNone});
   // A few photographs at a time: each is read, and strewn over the texels.
   constexpr std::size_t kAtOnce = 8;
   for (std::size_t begin = 0; begin < lights; begin += kAtOnce) {
     if (!goes_on(static_cast<double>(begin) / static_cast<double>(lights), "reading photographs"))
       throw files::Interrupted();
     const std::size_t end = std::min(begin + kAtOnce, lights);
-    std::vector<capture::Photo> photos(end - begin);
+    std::vector<capture::Photo> photos(end - begin), crossed(end - begin);
     std::vector<Rendered> renders(end - begin);
     tbb::parallel_for(begin, end, [&](std::size_t i) {
       photos[i - begin] = capture::read_photo(capture, frames.frame(camera, s.lights[i]), layers);
       renders[i - begin] = render(s.lights[i]);
+      const std::size_t pair = frames.crossed(camera, s.lights[i]);
+      if (pair != capture::kAbsent) crossed[i - begin] = capture::read_photo(capture, pair, layers);
     });
     tbb::parallel_for(std::size_t{0}, s.texels(), [&](std::size_t texel) {
       const std::size_t pixel = s.pixels[texel];
@@ -71,6 +78,9 @@ Subject read_subject(const capture::Capture& capture, std::size_t camera, const 
           s.render[sample][c] = rendered.light.rgb[3 * pixel + c];
         }
         if (!rendered.cosine.empty()) s.cosine[sample] = rendered.cosine[pixel];
+        const capture::Photo& pair = crossed[i - begin];
+        if (!pair.flaws.empty() && (pair.flaws[pixel] & (capture::kClipped | capture::kNotFinite)) == 0)
+          std::copy_n(pair.light.rgb.begin() + static_cast<std::ptrdiff_t>(3 * pixel), 3, s.crossed[sample].begin());
         // Black is what a shadow is, too: only what the sensor could not hold says nothing.
         if ((photo.flaws[pixel] & (capture::kClipped | capture::kNotFinite)) != 0) s.weight[sample] = 0;
       }

@@ -44,6 +44,8 @@ struct Subject {
   std::vector<float> cosine;
   std::vector<float> weight;  // [0, 1], how far the photo can be trusted: 0 where it is clipped, black or not finite
   std::vector<LightCensus> census{};  // of each light
+  // The same photographs through crossed polarizers, of each sample; NaN: there is none, or it is clipped. Empty: of no light.
+  std::vector<std::array<float, 3>> crossed{};
 
   // Of each texel: what its diffuse part returns of a light of irradiance 1 that it faces; empty: not known. What is seen is
   // taken to be `least` of it under any light.

@@ -24,7 +24,7 @@ std::vector<weight::Layer> weigh(const capture::Capture& capture, const image::P
   weight::Samples s;
   s.width = subject.width, s.height = subject.height;
   s.pixels = subject.pixels, s.to_lights = subject.to_lights, s.irradiance = subject.irradiance;
-  s.photo = subject.photo, s.render = subject.render, s.cosine = subject.cosine;
+  s.photo = subject.photo, s.render = subject.render, s.crossed = subject.crossed, s.cosine = subject.cosine;
   s.normals = normal_of, s.to_views = to_views;
   return weight::apply(s, choice, subject.weight, keeps);
 }

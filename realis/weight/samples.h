@@ -23,6 +23,7 @@ struct Samples {
   std::span<const glm::dvec3> to_lights;     // of each light, unit
   std::span<const double> irradiance;        // of each light; empty: 1
   std::span<const Color> photo, render;      // of each sample, linear; may be negative or not finite
+  std::span<const Color> crossed;            // the photo without what shines at the surface; NaN: not known
   std::span<const float> cosine;             // of each sample: light and normal
   std::span<const glm::dvec3> normals;       // of each texel, unit; (0, 0, 0): not known
   std::span<const glm::dvec3> to_views;      // of each texel, unit, from the surface to the camera

@@ -13,6 +13,65 @@ constexpr double kRing = 5, kBeyond = 45;  // [degree]
 constexpr std::size_t kRings = 9;
 constexpr double kLeastCosine = 0.15;
 
+// What shines at the surface, over the light received: the mean of a texel and its neighbors, which lowers the noise of
+// a difference of two photographs. NaN: not known.
+class MeasuredShine {
+ public:
+  explicit MeasuredShine(const Samples& s)
+      : s_(s), texel_of_(static_cast<std::size_t>(s.width) * static_cast<std::size_t>(s.height), kNone) {
+    for (std::size_t t = 0; t < s.texels(); ++t) texel_of_[s.pixels[t]] = t;
+  }
+  double of(std::size_t texel, std::size_t light) const {
+    if (!std::isfinite(one(texel, light))) return NAN;
+    const int x = static_cast<int>(s_.pixels[texel]) % s_.width, y = static_cast<int>(s_.pixels[texel]) / s_.width;
+    double sum = 0, count = 0;
+    for (int j = std::max(y - kReach, 0); j <= std::min(y + kReach, s_.height - 1); ++j)
+      for (int i = std::max(x - kReach, 0); i <= std::min(x + kReach, s_.width - 1); ++i) {
+        const std::size_t near =
+            texel_of_[static_cast<std::size_t>(j) * static_cast<std::size_t>(s_.width) + static_cast<std::size_t>(i)];
+        const double shine = near == kNone ? NAN : one(near, light);
+        if (std::isfinite(shine)) sum += shine, ++count;
+      }
+    return sum / count;
+  }
+
+ private:
+  static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+  static constexpr int kReach = 2;  // [pixel]
+  double one(std::size_t texel, std::size_t light) const {
+    const std::size_t at = texel * s_.lights() + light;
+    const double cosine = s_.cosine.empty() ? 1 : static_cast<double>(s_.cosine[at]);
+    if (!(cosine > kLeastCosine)) return NAN;
+    return (luminance(s_.photo[at]) - luminance(s_.crossed[at])) / (cosine * s_.irradiance_of(light));
+  }
+  const Samples& s_;
+  std::vector<std::size_t> texel_of_;
+};
+
+void weigh_measured(const Samples& s, const SpecularSettings& settings, Weights& out) {
+  const MeasuredShine shine(s);
+  const std::size_t lights = s.lights();
+  std::vector<double> excess(s.samples(), NAN);
+  tbb::parallel_for(std::size_t{0}, s.texels(), [&](std::size_t t) {
+    std::vector<double> known;
+    for (std::size_t l = 0; l < lights; ++l)
+      if (const double x = shine.of(t, l); std::isfinite(x)) excess[t * lights + l] = x, known.push_back(x);
+    const double least = quantile(known, 0.25);
+    for (std::size_t l = 0; l < lights; ++l) excess[t * lights + l] -= least;
+  });
+  std::vector<double> below, shown;
+  for (std::size_t at = 0; at < s.samples(); ++at) {
+    if (!std::isfinite(excess[at])) continue;
+    if (excess[at] <= 0) below.push_back(-excess[at]);
+    const double cosine = s.cosine.empty() ? 1 : static_cast<double>(s.cosine[at]);
+    shown.push_back(luminance(s.crossed[at]) / (cosine * s.irradiance_of(at % lights)));
+  }
+  const double noise = 1.4826 * quantile(below, 0.5);
+  const double tolerance = std::max({settings.significance * noise, 0.003 * std::abs(quantile(shown, 0.5)), 1e-12});
+  for (std::size_t at = 0; at < s.samples(); ++at)
+    if (excess[at] > 0) out[at] = static_cast<float>(1 / (1 + (excess[at] / tolerance) * (excess[at] / tolerance)));
+}
+
 }  // namespace
 
 double half_cosine(const Samples& s, std::size_t texel, std::size_t light) {
@@ -24,6 +83,10 @@ double half_cosine(const Samples& s, std::size_t texel, std::size_t light) {
 
 Weights specular(const Samples& s, const SpecularSettings& settings) {
   Weights out(s.samples(), 1.0f);
+  if (!s.crossed.empty()) {
+    weigh_measured(s, settings, out);
+    return out;
+  }
   if (s.normals.empty() || s.to_views.empty() || s.cosine.empty()) return out;
   const std::size_t lights = s.lights();
   // e of a sample, and its ring; kRings: beyond; one more: says nothing.

@@ -11,6 +11,11 @@ namespace likeness::realis::weight {
 // 1 / (1 + (x / t)^2), x its excess over the median of its texel's other lights beyond 45 degrees, t half a deviation or that
 // hundredth. Normals and views have to be known.
 //
+// Where samples were also photographed through crossed polarizers, the highlight is measured and not estimated: what parallel
+// polarizers show less what crossed ones do, over the light received. x is then its excess over the median of its texel's lights
+// (a gloss that is everywhere stays), t the larger of a hundredth of what the photographs show and of three deviations of the
+// samples whose highlight is below that median; normals and views are not needed.
+//
 // Off unless asked for: a bake that is seen from its own camera may keep its highlights.
 struct SpecularSettings {
   double significance = 3;  // deviations, > 0

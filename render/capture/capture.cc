@@ -38,11 +38,13 @@ std::size_t rendered_variant_of(const Capture& capture) {
 }
 
 FrameTable::FrameTable(const Capture& capture)
-    : lights_(capture.lights.size()), frames_(capture.cameras.size() * capture.lights.size(), kAbsent) {
+    : lights_(capture.lights.size()),
+      frames_(capture.cameras.size() * capture.lights.size(), kAbsent),
+      crossed_(frames_) {
   for (std::size_t i = 0; i < capture.frames.size(); ++i) {
     const Frame& frame = capture.frames[i];
-    if (frame.kind != FrameKind::kOneLight) continue;
-    std::size_t& at = frames_[frame.camera * lights_ + frame.light];
+    if (!is_of_one_light(frame.kind)) continue;
+    std::size_t& at = (frame.kind == FrameKind::kCrossed ? crossed_ : frames_)[frame.camera * lights_ + frame.light];
     if (at == kAbsent) at = i;
   }
 }
@@ -50,6 +52,11 @@ FrameTable::FrameTable(const Capture& capture)
 std::size_t FrameTable::frame(std::size_t camera, std::size_t light) const {
   const std::size_t at = camera * lights_ + light;
   return light < lights_ && at < frames_.size() ? frames_[at] : kAbsent;
+}
+
+std::size_t FrameTable::crossed(std::size_t camera, std::size_t light) const {
+  const std::size_t at = camera * lights_ + light;
+  return light < lights_ && at < crossed_.size() ? crossed_[at] : kAbsent;
 }
 
 std::string filled(std::string_view pattern, std::string_view camera, std::string_view light,

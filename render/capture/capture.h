@@ -64,9 +64,13 @@ enum class FrameKind : unsigned char {
   kOneLight,  // of Frame::light
   kFull,      // all lights
   kAmbient,   // none: what is subtracted
-  kGradient   // a pattern; Frame::light names it
+  kGradient,  // a pattern; Frame::light names it
+  // Of Frame::light, through a polarizer that is crossed with the light's: without what shines at the surface. The frame of one
+  // light is then the one through parallel polarizers, and both show the same of what comes from inside.
+  kCrossed
 };
-inline constexpr std::array<std::string_view, 4> kFrameKinds{"one_light", "full", "ambient", "gradient"};
+inline constexpr std::array<std::string_view, 5> kFrameKinds{"one_light", "full", "ambient", "gradient", "crossed"};
+constexpr bool is_of_one_light(FrameKind kind) { return kind == FrameKind::kOneLight || kind == FrameKind::kCrossed; }
 
 // What the numbers of a file mean. Never guessed: an importer is told, or asks.
 enum class Transfer : unsigned char {
@@ -82,7 +86,7 @@ inline constexpr std::array<std::string_view, 3> kPrimaries{"rec709", "acescg", 
 
 struct Frame {
   std::size_t camera = 0;  // in Capture::cameras
-  std::size_t light = 0;   // in Capture::lights, if kind is kOneLight
+  std::size_t light = 0;   // in Capture::lights, if is_of_one_light(kind)
   FrameKind kind = FrameKind::kOneLight;
   std::filesystem::path file;  // relative to the capture's root, or absolute
   Transfer transfer = Transfer::kLinear;
@@ -152,10 +156,11 @@ class FrameTable {
  public:
   explicit FrameTable(const Capture& capture);
   std::size_t frame(std::size_t camera, std::size_t light) const;
+  std::size_t crossed(std::size_t camera, std::size_t light) const;  // of FrameKind::kCrossed
 
  private:
   std::size_t lights_;
-  std::vector<std::size_t> frames_;
+  std::vector<std::size_t> frames_, crossed_;
 };
 
 // A pattern with {camera}, {light} and {variant} replaced; other braces stay.

@@ -88,7 +88,7 @@ constexpr std::array kEncodingKeys{
 constexpr std::array kPlaceKeys{
     Key{.name = "camera", .form = Form::kText, .required = true, .text = "id"},
     Key{.name = "light", .form = Form::kText, .text = "id; needed for one_light"},
-    Key{.name = "kind", .form = Form::kChoice, .initial = kFrameKinds[0], .choices = kFrameKinds, .text = "what shone: one light, all of them, none (what is subtracted), or a pattern"},
+    Key{.name = "kind", .form = Form::kChoice, .initial = kFrameKinds[0], .choices = kFrameKinds, .text = "what shone: one light, all of them, none (what is subtracted), a pattern; `crossed`: one light through crossed polarizers"},
     Key{.name = "file", .form = Form::kFile, .required = true, .text = "relative to the capture's folder and not above it, or absolute"},
     Key{.name = "sha256", .form = Form::kText, .text = "of the file, 64 hexadecimal digits"},
 };

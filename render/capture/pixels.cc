@@ -144,7 +144,7 @@ Photo read_photo(const Capture& capture, std::size_t at, const CameraLayers& lay
   const bool turns_colors = to_rec709 != glm::dmat3(1);
   const double scale = 1 / (frame.white - frame.black);
   glm::dvec3 gain_of(frame.gain);
-  if (frame.kind == FrameKind::kOneLight) gain_of /= capture.lights[frame.light].intensity;
+  if (is_of_one_light(frame.kind)) gain_of /= capture.lights[frame.light].intensity;
   const std::array<double, 3> gain{gain_of.x, gain_of.y, gain_of.z};
   std::array<float, 256> of_byte{};  // a byte's value after black, white and curve
   for (std::size_t k = 0; k < 256 && !texels.bytes.empty(); ++k)

@@ -173,7 +173,7 @@ void read_frames(const Fields& file, const Ids& ids, Capture& capture) {
     Frame out = defaults;
     out.camera = place_at(row, "camera", row.text("camera"), ids.cameras, kCamerasFile);
     out.kind = word_of<FrameKind>(row, "kind");
-    if (out.kind == FrameKind::kOneLight && !row.has("light")) row.refuse("/light is missing: a frame of one light");
+    if (is_of_one_light(out.kind) && !row.has("light")) row.refuse("/light is missing: a frame of one light");
     if (row.has("light")) out.light = place_at(row, "light", row.text("light"), ids.lights, kLightsFile);
     out.file = file_of(row, "file", true);
     out.sha256 = row.text("sha256");

@@ -139,10 +139,10 @@ std::string frames_text(const Capture& capture) {
   std::vector<Json> rows;
   for (const Frame& frame : capture.frames) {
     const bool has_light = frame.light < capture.lights.size();
-    if (frame.camera >= capture.cameras.size() || (frame.kind == FrameKind::kOneLight && !has_light))
+    if (frame.camera >= capture.cameras.size() || (is_of_one_light(frame.kind) && !has_light))
       throw std::invalid_argument("a frame's camera or light is not in the lists of the capture");
     Json row{{"camera", capture.cameras[frame.camera].id}};
-    if (has_light && (frame.kind == FrameKind::kOneLight || frame.kind == FrameKind::kGradient))
+    if (has_light && (is_of_one_light(frame.kind) || frame.kind == FrameKind::kGradient))
       row["light"] = capture.lights[frame.light].id;
     if (frame.kind != FrameKind::kOneLight) row["kind"] = kFrameKinds[static_cast<std::size_t>(frame.kind)];
     row["file"] = frame.file.string();

@@ -35,7 +35,7 @@ void check_capture(const Capture& capture) {
   const FrameTable table(capture);
   for (const Frame& frame : capture.frames) {
     must(frame.camera < capture.cameras.size(), "a frame has a camera");
-    must(frame.kind != FrameKind::kOneLight || frame.light < capture.lights.size(), "a frame of one light has it");
+    must(!is_of_one_light(frame.kind) || frame.light < capture.lights.size(), "a frame of one light has it");
     must(frame.white > frame.black && frame.gain > 0, "a frame can be decoded");
     for (const auto& part : frame.file) must(part != "..", "no file is above the folder by ..");
   }

@@ -29,8 +29,10 @@ brdf::AnyBrdf real_surface() {
   return brdf::AnyBrdf(out);
 }
 
-capture::Capture made(const std::filesystem::path& folder, const brdf::AnyBrdf& surface, const CaptureFaults& faults) {
+capture::Capture made(const std::filesystem::path& folder, const brdf::AnyBrdf& surface, const CaptureFaults& faults,
+                      bool has_pairs = false) {
   CaptureOptions options;
+  options.has_pairs = has_pairs;
   options.folder = folder;
   options.width = options.height = 64, options.lights = 24;
   options.has_floats = true, options.brdf = surface, options.faults = faults;
@@ -49,8 +51,8 @@ class Weights : public testing::Test {
   }
   static void TearDownTestSuite() { basis_.reset(), clean_.reset(), rendered_.reset(), folder_.reset(); }
 
-  static Subject subject_of(const char* name, const CaptureFaults& faults) {
-    const capture::Capture photographed = made(folder_->path() / name, real_surface(), faults);
+  static Subject subject_of(const char* name, const CaptureFaults& faults, bool has_pairs = false) {
+    const capture::Capture photographed = made(folder_->path() / name, real_surface(), faults, has_pairs);
     return read_subject(photographed, 0, renders_of_variant(*rendered_, 0, 0), {}, always);
   }
   static Subject weighed(Subject s, const weight::Choice& choice) {
@@ -127,6 +129,24 @@ TEST_F(Weights, OfSpecularResidueTakeAwayAHighlight) {
     const std::string name = "residue " + std::to_string(residue);
     EXPECT_GT(removed("specular", name.c_str(), subject_of("residue", faults)), 0.8) << residue;
   }
+}
+
+// Through crossed polarizers a highlight is measured: also one that is too weak to be told from what the surface does.
+TEST_F(Weights, OfSpecularResidueAreMeasuredByPolarizedPairs) {
+  CaptureFaults faults;
+  faults.read_noise = 0.1, faults.full_well = 20000;
+  const Subject clean = subject_of("pairs", faults, true);
+  ASSERT_EQ(clean.crossed.size(), clean.photo.size());
+  const std::vector<double> truth = baked(*clean_);
+  const double noise = rms(baked(clean), truth);  // what the noise alone makes of the bake, which no weight takes away
+  for (const double residue : {0.02, 0.05, 0.5}) {
+    faults.residue = residue;
+    const std::string name = "residue " + std::to_string(residue) + ", pairs";
+    const Subject faulty = subject_of("pairs", faults, true);
+    const double off = rms(baked(faulty), truth), on = off * (1 - removed("specular", name.c_str(), faulty));
+    EXPECT_LT(std::sqrt(std::max(on * on - noise * noise, 0.0)), 0.2 * off) << residue << ", noise alone: " << noise;
+  }
+  EXPECT_TRUE(subject_of("no_pairs", faults).crossed.empty());
 }
 
 // Clipped samples are marked by whoever reads the frames; here they are taken back first, and the level is told.

@@ -156,6 +156,19 @@ TEST(CaptureFiles, APatternMakesAFrameOfEachPairAndARowTakesItsPlace) {
   EXPECT_EQ(photo_file(got, got.frames[5]), "/c/q/l3.png");
 }
 
+TEST(CaptureFiles, AFrameThroughCrossedPolarizersStandsBesideThatOfItsLight) {
+  Capture capture = small_capture("/c");
+  capture.frames.push_back({.camera = 1, .light = 2, .kind = FrameKind::kCrossed, .file = "photos/crossed.exr"});
+  const Capture got = capture_of(texts_of(capture), "/c");
+  const FrameTable table(got);
+  EXPECT_EQ(table.frame(1, 2), 5u);
+  ASSERT_EQ(table.crossed(1, 2), got.frames.size() - 1);
+  EXPECT_EQ(got.frames.back().kind, FrameKind::kCrossed);
+  EXPECT_EQ(got.frames.back().light, 2u);
+  EXPECT_EQ(table.crossed(1, 1), kAbsent);
+  EXPECT_EQ(table.crossed(1, 3), kAbsent);
+}
+
 TEST(CaptureFiles, TheTableHasOnlyFramesOfOneLight) {
   const Capture capture = small_capture("/c");
   const FrameTable table(capture);
