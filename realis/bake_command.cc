@@ -172,7 +172,7 @@ Summary bake_mesh(const Request& request, const BakeOptions& options, const weig
 
 // A camera's picture.
 Summary bake_picture(const Request& request, const BakeOptions& options, const weight::Choice& choice,
-                     capture::Capture& capture, const GoesOn& goes_on) {
+                     capture::Capture& capture, const GoesOn& goes_on, bool& is_written) {
   if (!request.object.empty()) throw UsageError("--object is an instance of a scene; --scene names its file");
   const std::size_t camera = camera_named(capture, request.camera);
   const auto begin = std::chrono::steady_clock::now();
@@ -205,6 +205,7 @@ Summary bake_picture(const Request& request, const BakeOptions& options, const w
   const std::filesystem::path folder = folder_of(request, capture);
   write_bake(folder, stored, request.is_float);
   if (fit) write_surface(folder, *fit);
+  is_written = true;
   // The first variant is what others take if none is named: layers come last.
   if (!request.result.empty()) write_results(capture, subject, seen, request.result);
   if (request.has_layers) write_layers(capture, subject, seen, layers, std::filesystem::path("realis") / request.name);
@@ -221,7 +222,7 @@ Summary bake_picture(const Request& request, const BakeOptions& options, const w
   return out;
 }
 
-int run_bake(const Request& request) try {
+int run_bake(const Request& request) {
   files::catch_interrupts();
   const BakeOptions options = options_of(request);
   weight::Choice choice = weight::choice_of(request.only, request.with, request.without, request.weights);
@@ -229,22 +230,26 @@ int run_bake(const Request& request) try {
   capture::Capture capture = capture::read_capture(request.capture);
   if (!capture::is_id(request.name)) throw UsageError("--name " + files::in_quotes(request.name) + " cannot be a name");
   Summary summary;
-  {
+  bool is_written = false;  // the bake; its pictures follow
+  try {
     files::Progress progress;
     const auto goes_on = [&](double share, std::string_view what) {
       progress.tell(what, share);
       return !files::interrupted();
     };
-    summary = request.scene.empty() ? bake_picture(request, options, choice, capture, goes_on)
+    summary = request.scene.empty() ? bake_picture(request, options, choice, capture, goes_on, is_written)
                                     : bake_mesh(request, options, choice, capture, goes_on);
+  } catch (const files::Interrupted&) {
+    std::cerr
+        << "likeness realis bake: interrupted"
+        << (!request.scene.empty() ? "; the same command goes on with the lights and tiles that are finished\n"
+            : is_written
+                ? "; the bake is written, its pictures in renders/ are not all there: the same command makes them\n"
+                : "; nothing was written\n");
+    return 130;
   }
   std::cout << (request.is_json ? json_of(summary) : text_of(summary));
   return 0;
-} catch (const files::Interrupted&) {
-  std::cerr << "likeness realis bake: interrupted"
-            << (request.scene.empty() ? "; nothing was written\n"
-                                      : "; the same command goes on with the lights and tiles that are finished\n");
-  return 130;
 }
 
 }  // namespace
