@@ -23,14 +23,15 @@
 #include "olat/command.h"
 #include "olat/compare/command.h"
 #include "olat/import/command.h"
+#include "olat/photograph/command.h"
 #include "olat/render/command.h"
 #include "olat/view/command.h"
 #include "realis/ablation/command.h"
 #include "realis/command.h"
 #include "realis/export/command.h"
 #include "realis/report/command.h"
-#include "render/bloom/command.h"
 #include "render/blood/command.h"
+#include "render/bloom/command.h"
 #include "render/command/command.h"
 #include "render/cost/command.h"
 #include "render/expose/command.h"
@@ -55,8 +56,10 @@ constexpr auto kFooter = R"(Examples
   likeness cost room.json --out out/room       what each setting of the run-time pipeline costs and gains on a scene
   likeness expose church.exr --page why.html   an exposure, and why: histogram, zones, what every other would clip
   likeness bloom fit lamp.exr lamp_glow.exr    how a lens makes lamps glow; bloom apply puts it over renders
-  likeness plan room.json                      which effects a scene calls for, and why
   likeness blood spatter --speed high          decals of spatter; blood palette fits colors of blood to a table
+  likeness plan room.json                      which effects a scene calls for, and why
+  likeness hdr merge --list image_list.txt     bracketed photographs to linear light
+  likeness raw chart.dng --out chart.exr       a raw photograph to linear light
   likeness olat import photos/                 photographs, one light at a time: compare them with renders
   likeness realis bake capture/                what the renders of a capture lack, to be added at run time
   likeness realis export capture/ --help       that for relighting programs of others, and as a page to look at
@@ -143,10 +146,12 @@ int main(int argc, char** argv) try {
   likeness::expose::add_expose(program, exit_code);
   likeness::mip::add_mip(program, exit_code);
   likeness::bloom::add_bloom(program);
+  likeness::blood::add_blood(program);
+  likeness::olat_photograph::add_raw(program, exit_code);
+  likeness::olat_photograph::add_hdr(program, exit_code);
   CLI::App& olat = likeness::olat::add_olat(program);
   likeness::olat_import::add_import(olat, exit_code);
   likeness::olat_import::add_export(olat, exit_code);
-  likeness::blood::add_blood(program);
   likeness::olat_render::add_render(olat, exit_code);
   likeness::olat_calibrate::add_calibrate(olat, exit_code);
   likeness::olat_check::add_check(olat, exit_code);

@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
@@ -60,12 +61,16 @@ void ask_for_linear(OIIO::ImageSpec& asked) {
   asked.attribute("raw:Demosaic", "AHD");
 }
 
+constexpr std::string_view kMosaic = "mosaic";
+
 }  // namespace
 
 extern "C" __attribute__((visibility("default"))) int likeness_decode_1(const char* format, const void* bytes,
                                                                         size_t size, likeness_pixels_place place,
                                                                         void* state, char* error, size_t error_size) {
   try {
+    const bool is_mosaic = kMosaic == format;
+    if (is_mosaic) format = "raw";
     const std::unique_ptr<OIIO::ImageInput> in = OIIO::ImageInput::create(format);
     if (!in) return fail(OIIO::geterror(), error, error_size);
     OIIO::Filesystem::IOMemReader memory(const_cast<void*>(bytes), size);  // it only reads
@@ -79,6 +84,7 @@ extern "C" __attribute__((visibility("default"))) int likeness_decode_1(const ch
     OIIO::ImageSpec asked, spec;
     asked.attribute("oiio:UnassociatedAlpha", 1);  // else it multiplies alpha into the colors
     ask_for_linear(asked);
+    if (is_mosaic) asked.attribute("raw:Demosaic", "none");
     if (!in->open(name, spec, asked)) return fail(in->geterror(), error, error_size);
     if (spec.depth > 1) return fail("it is a volume", error, error_size);
     const bool is_float = spec.format != OIIO::TypeDesc::UINT8 && spec.format != OIIO::TypeDesc::INT8;

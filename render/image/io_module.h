@@ -11,7 +11,8 @@ extern "C" {
 typedef void* (*likeness_pixels_place)(void* state, int width, int height, int channels, int is_float, char* error,
                                        size_t error_size);
 
-// Decodes `size` bytes of a file of the named OpenImageIO format, top row first.
+// Decodes `size` bytes of a file of the named OpenImageIO format, top row first. "mosaic" is camera raw as the sensor
+// counted it, one channel, a count of 65535 being 1.
 typedef int (*likeness_decode_function)(const char* format, const void* bytes, size_t size, likeness_pixels_place place,
                                         void* state, char* error, size_t error_size);
 }

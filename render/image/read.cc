@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <exception>
@@ -49,23 +50,6 @@ bool is_tga(std::string_view bytes, const std::string& name) {
   std::string extension = dot == name.npos ? "" : name.substr(dot + 1);
   std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
   return extension == "tga" || bytes.ends_with(std::string_view("TRUEVISION-XFILE.\0", 18));
-}
-
-// Whether a TIFF is camera raw: its first directory has the tag DNGVersion (Adobe, DNG 1.7, chapter 4).
-bool is_dng(std::string_view bytes) {
-  const bool is_little = bytes.starts_with("II");
-  const auto number = [&](std::size_t at, std::size_t size) {
-    std::size_t out = 0;
-    for (std::size_t i = 0; i < size && at + size <= bytes.size(); ++i)
-      out = out << 8 | static_cast<unsigned char>(bytes[is_little ? at + size - 1 - i : at + i]);
-    return out;
-  };
-  const std::size_t directory = number(4, 4);
-  if (directory + 2 > bytes.size()) return false;
-  constexpr std::size_t kRow = 12, kDngVersion = 50706;
-  for (std::size_t i = 0, count = number(directory, 2); i < count; ++i)
-    if (number(directory + 2 + kRow * i, 2) == kDngVersion) return true;
-  return false;
 }
 
 // OpenImageIO's name of the format; null if it is none that is read.
@@ -132,6 +116,24 @@ Texels decode_other(const char* format, std::string_view bytes, const std::strin
 
 }  // namespace
 
+// Its first directory has the tag DNGVersion (Adobe, DNG 1.7, chapter 4).
+bool is_dng(std::string_view bytes) {
+  const bool is_little = bytes.starts_with("II");
+  if (!is_little && !bytes.starts_with("MM")) return false;
+  const auto number = [&](std::size_t at, std::size_t size) {
+    std::size_t out = 0;
+    for (std::size_t i = 0; i < size && at + size <= bytes.size(); ++i)
+      out = out << 8 | static_cast<unsigned char>(bytes[is_little ? at + size - 1 - i : at + i]);
+    return out;
+  };
+  const std::size_t directory = number(4, 4);
+  if (directory + 2 > bytes.size()) return false;
+  constexpr std::size_t kRow = 12, kDngVersion = 50706;
+  for (std::size_t i = 0, count = number(directory, 2); i < count; ++i)
+    if (number(directory + 2 + kRow * i, 2) == kDngVersion) return true;
+  return false;
+}
+
 Texels decode_texels(std::string_view bytes, const std::string& name, const ReadOptions& options) {
   if (is_exr(bytes)) return decode_exr(bytes, name, options);
   if (bytes.empty()) throw InputError(name + ": is empty; expected a picture (" + kFormats + ")");
@@ -140,6 +142,17 @@ Texels decode_texels(std::string_view bytes, const std::string& name, const Read
   if (!options.layer.empty())
     throw InputError(name + ": " + format + " has no layers; " + files::in_quotes(options.layer) + " was asked for");
   return decode_other(format, bytes, name, options);
+}
+
+Texels decode_mosaic(std::string_view bytes, const std::string& name, const ReadOptions& options) {
+  if (!is_dng(bytes)) throw InputError(name + ": is no DNG; camera raw files of other kinds are to be converted to it");
+  Texels texels = decode_other("mosaic", bytes, name, options);
+  if (texels.channels != 1)
+    throw InputError(name + ": has no mosaic, but " + std::to_string(texels.channels) + " channels");
+  if (texels.floats.empty()) texels.floats.assign(texels.bytes.begin(), texels.bytes.end()), texels.bytes.clear();
+  else
+    for (float& v : texels.floats) v = std::round(65535 * v);
+  return texels;
 }
 
 Texels read_texels(const std::filesystem::path& file, const ReadOptions& options) {

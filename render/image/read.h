@@ -45,6 +45,13 @@ Texels read_texels(const std::filesystem::path& file, const ReadOptions& options
 // The same of a file in memory; `name` is for messages and, for TGA, its extension.
 Texels decode_texels(std::string_view bytes, const std::string& name, const ReadOptions& options = {});
 
+// Whether bytes begin as a TIFF does that is camera raw (DNG).
+bool is_dng(std::string_view bytes);
+
+// A DNG as its sensor counted it: one channel of whole numbers, without the sensor's covered edge; neither black nor white
+// is applied, nor the orientation.
+Texels decode_mosaic(std::string_view bytes, const std::string& name, const ReadOptions& options = {});
+
 // Linear light of a file: floats as they are, bytes decoded by the sRGB curve, grey repeated, alpha left out.
 Picture read_picture(const std::filesystem::path& file, const ReadOptions& options = {});
 
