@@ -174,7 +174,7 @@ std::string page_of(const Merged& m) {
   out += figure_of(ghost_picture(m, lit),
                    "Ghosts, red: frames disagree beyond noise; yellow: the reference frame's light was taken.");
   out += "</div>\n" + page::element("h2", "Response");
-  out += "<p>What exposure (light times time) made each code. " + page::escape(m.response.name) + ".";
+  out += "<p>What exposure (light times time) made each code: " + page::escape(m.response.name) + ".";
   if (m.recovered) {
     out += " From " + std::to_string(m.recovered->used) + " pixels; it leaves ";
     for (std::size_t c = 0; c < 3; ++c) out += (c > 0 ? ", " : "") + page::fixed(m.recovered->rms_stops[c], 3);

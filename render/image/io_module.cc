@@ -84,7 +84,10 @@ extern "C" __attribute__((visibility("default"))) int likeness_decode_1(const ch
     OIIO::ImageSpec asked, spec;
     asked.attribute("oiio:UnassociatedAlpha", 1);  // else it multiplies alpha into the colors
     ask_for_linear(asked);
-    if (is_mosaic) asked.attribute("raw:Demosaic", "none");
+    if (is_mosaic) {
+      asked.attribute("raw:Demosaic", "none");
+      asked.attribute("raw:user_flip", 0);  // as it lies on the sensor
+    }
     if (!in->open(name, spec, asked)) return fail(in->geterror(), error, error_size);
     if (spec.depth > 1) return fail("it is a volume", error, error_size);
     const bool is_float = spec.format != OIIO::TypeDesc::UINT8 && spec.format != OIIO::TypeDesc::INT8;

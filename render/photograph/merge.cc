@@ -370,9 +370,9 @@ class Merger {
     if (options_.deghosts && out_.ghosts > 0 && exposures_.size() > 1) take_reference();
     if (out_.clipped_in_all > 0)
       warn(std::to_string(out_.clipped_in_all) +
-           " pixels are clipped in every frame; a shorter exposure would show them");
+           " pixel(s) are clipped in every frame; a shorter exposure would show them");
     if (out_.black_in_all > 0)
-      warn(std::to_string(out_.black_in_all) + " pixels are black in every frame; a longer exposure would show them");
+      warn(std::to_string(out_.black_in_all) + " pixel(s) are black in every frame; a longer exposure would show them");
   }
 
   // Lone pixels are noise: what counts has four others among its eight neighbors, and its whole neighborhood is marked.
