@@ -80,11 +80,10 @@ void run_apply(const ApplyRequest& request) {
     after[i % 3] += static_cast<double>(applied.picture.rgb[i]);
   }
   if (request.json) {
-    std::cout << "{\"written\": \"" << request.out << "\", \"not_a_number\": " << applied.not_a_number
-              << ", \"infinite\": " << applied.infinite << ", \"sum_before\": [" << files::number_text(before[0])
-              << ", " << files::number_text(before[1]) << ", " << files::number_text(before[2]) << "], \"sum_after\": ["
-              << files::number_text(after[0]) << ", " << files::number_text(after[1]) << ", "
-              << files::number_text(after[2]) << "]}\n";
+    std::cout << "{\"not_a_number\": " << applied.not_a_number << ", \"infinite\": " << applied.infinite
+              << ", \"sum_before\": [" << files::number_text(before[0]) << ", " << files::number_text(before[1]) << ", "
+              << files::number_text(before[2]) << "], \"sum_after\": [" << files::number_text(after[0]) << ", "
+              << files::number_text(after[1]) << ", " << files::number_text(after[2]) << "]}\n";
     return;
   }
   const double all_before = before[0] + before[1] + before[2], all_after = after[0] + after[1] + after[2];
