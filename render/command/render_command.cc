@@ -85,7 +85,6 @@ int run(const Request& request) {
     std::cout << view::list_text(request.config.value_or(""));
     return 0;
   }
-  if (request.scene.empty()) throw files::UsageError("SCENE is required");
   const auto start = Clock::now();
   const exposure::Overlay overlay = exposure::overlay_named("--overlay", request.overlay);
   const std::optional<exposure::Mode> mode = exposure_of(request);
@@ -257,6 +256,7 @@ void add_render(CLI::App& program, int& exit_code) {
   app->add_option("--overlay", r->overlay, "Of the PNG. " + overlays)->capture_default_str()->group(shown);
   app->footer(kFooter);
   app->callback([r, app, &exit_code] {
+    if (r->scene.empty() && !r->lists_views) throw CLI::RequiredError("SCENE");
     if (!r->quality.empty() && app->count("--integrator") == 0) r->integrator = "runtime";
     if (r->integrator == "runtime")
       for (const char* stranger :

@@ -42,7 +42,6 @@ int run(const Request& request) {
     std::cout << view::list_text(request.config);
     return 0;
   }
-  if (request.inputs.empty()) throw files::UsageError("INPUT is required: a picture, a capture or a scene");
   const Options options = options_of(request);
   files::catch_interrupts();
   const Series series = series_of(request, options);
@@ -133,7 +132,10 @@ void add_expose(CLI::App& program, int& exit_code) {
   app->add_option("--overlay", r->overlay, "Of --out. " + overlays)->capture_default_str()->group(files);
   app->add_option("--page", r->page, "A page that shows why, .html")->group(files);
   app->footer(kFooter);
-  app->callback([r, &exit_code] { exit_code = run(*r); });
+  app->callback([r, &exit_code] {
+    if (r->inputs.empty() && !r->lists) throw CLI::RequiredError("INPUT");
+    exit_code = run(*r);
+  });
 }
 
 }  // namespace likeness::expose

@@ -43,7 +43,7 @@ scene::View with_defaults(const scene::View& view) {
   }
   if (!found)
     throw files::InputError("display " + files::in_quotes(view.display) +
-                            " is of an OpenColorIO config, and none is named (by --ocio or by $OCIO)");
+                            ": no OpenColorIO config is named (by --ocio or by $OCIO)");
   std::vector<std::string_view> names;
   for (const ConfigDisplay& display : found->displays) {
     names.push_back(display.name);
