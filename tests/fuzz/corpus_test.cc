@@ -55,6 +55,8 @@ std::vector<Seed> seeds() {
           {"blood_table", "drop,opacity,time_s,r,g,b\n01,0.35,0,200,120,90.5\n"},
           {"bloom_kernel", R"({"format": "likeness bloom", "version": 1, "radius": 2, "direct": [1, 1, 1],
                               "components": []})"},
+          {"brackets", "# list\na.png 32 0.03125 8 0 0\nb.png 0.5 2 4 3 0.3\n"},
+          {"brackets", "name,seconds\nmy room.png,1/250\nb.png,2\n"},
           {"lp", "2\na b.png 0 0 5\nb.png 3 0 4\n"},
           {"dome", R"({"lightConfiguration": "spherical", "positionsSphere": [{"x": 1, "y": 2, "z": 3}],
                        "ledAdjust": [{"r": 1, "g": 1, "b": 2}]})"},

@@ -13,6 +13,7 @@
 #include "tests/fuzz/feed_capture.h"
 #include "tests/fuzz/feed_exr.h"
 #include "tests/fuzz/feed_olat.h"
+#include "tests/fuzz/feed_photograph.h"
 #include "tests/fuzz/feed_studies.h"
 
 namespace likeness::measured::test {
@@ -36,6 +37,8 @@ bool feed(std::string_view format, std::string_view bytes) {
   for (const std::string_view of_captures : {"capture", "lights_csv", "lp", "dome", "colmap", "colmap_bin"})
     if (format == of_captures) return capture::test::feed_capture(format, bytes);
   if (format == "tev" || format == "state") return olat_pair::test::feed_olat(format, bytes);
+  for (const std::string_view of_photographs : {"brackets", "response", "dng"})
+    if (format == of_photographs) return feed_photograph(format, bytes);
   for (const std::string_view of_studies : {"readings", "blood_table", "bloom_kernel"})
     if (format == of_studies) return feed_studies(format, bytes);
   for (const std::string_view of_scenes : {"scene", "glb", "ply", "obj", "ies"})
