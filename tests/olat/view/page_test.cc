@@ -183,7 +183,8 @@ TEST_F(Page, OpensHelpAndPaletteAndClosesThem) {
   press("Enter");
   EXPECT_EQ(state("wedge"), "\"true\"") << "found by its name";
   EXPECT_TRUE(wait("document.querySelectorAll('#wedge span').length === 17"));
-  EXPECT_THAT(evaluate("document.querySelectorAll('#wedge span')[5].textContent"), HasSubstr("V0117")) << "zone, EV, code"
+  EXPECT_THAT(evaluate("document.querySelectorAll('#wedge span')[5].textContent"), HasSubstr("V0117"))
+      << "zone, EV, code"
       << "zone V through gt";
 }
 
