@@ -1,7 +1,7 @@
 # The one way a room declares its library, and a test its program:
 #
-#   likeness_library(measured SOURCES merl.cc read.cc NEEDS likeness::brdf likeness::files [WITH Ceres::ceres]
-#                    [FOLDERS of further headers])
+#   likeness_library(measured SOURCES merl.cc read.cc [COMMANDS command.cc] NEEDS likeness::brdf likeness::files
+#                    [WITH Ceres::ceres] [FOLDERS of further headers])
 #   likeness_test(measured_test SOURCES merl_test.cc NEEDS likeness::measured [WITH TBB::tbb] [TIMEOUT 120])
 #
 # NEEDS names rooms, which is the order of the house (tests/house/layout_test reads it from these lines); WITH names
@@ -29,10 +29,11 @@ add_library(likeness_warnings INTERFACE)
 add_library(likeness::warnings ALIAS likeness_warnings)
 target_compile_options(likeness_warnings INTERFACE ${LIKENESS_WARNINGS})
 
-# Speed-ups that are used where they are found; -DCMAKE_CXX_COMPILER_LAUNCHER= (empty) builds without ccache.
+# Speed-ups that are used where they are found; -DCMAKE_CXX_COMPILER_LAUNCHER= (empty) builds without ccache. The preset
+# release has none: its precompiled headers and joined sources leave a cache little to find.
 if(PROJECT_IS_TOP_LEVEL)
   find_program(LIKENESS_CCACHE ccache)
-  if(LIKENESS_CCACHE AND NOT DEFINED CMAKE_CXX_COMPILER_LAUNCHER)
+  if(LIKENESS_CCACHE AND NOT LIKENESS_PARSE_ONCE AND NOT DEFINED CMAKE_CXX_COMPILER_LAUNCHER)
     set(CMAKE_CXX_COMPILER_LAUNCHER ${LIKENESS_CCACHE})
   endif()
   find_program(LIKENESS_MOLD mold)
@@ -41,15 +42,51 @@ if(PROJECT_IS_TOP_LEVEL)
   endif()
 endif()
 
+# The headers that most sources read are a third of what compiling takes: the preset release parses them once for each
+# kind of source (LIKENESS_PARSE_ONCE). They are no promise: a source includes what it uses, as the other presets see to.
+set(LIKENESS_COMMON_HEADERS <algorithm> <array> <cmath> <cstdint> <cstdio> <filesystem> <fstream> <functional> <iostream>
+    <limits> <map> <memory> <numbers> <numeric> <optional> <random> <set> <span> <sstream> <stdexcept> <string>
+    <string_view> <tuple> <utility> <variant> <vector> <glm/geometric.hpp> <glm/mat3x3.hpp> <glm/mat4x4.hpp>
+    <glm/vec2.hpp> <glm/vec3.hpp>)
+function(likeness_parse_once target kind)
+  if(NOT LIKENESS_PARSE_ONCE)
+    return()
+  endif()
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+    # False in libstdc++'s strings, which are no longer known for a system's header (GCC bugs 105329 and 105651).
+    target_compile_options(${target} PRIVATE -Wno-stringop-overflow -Wno-stringop-overread -Wno-array-bounds)
+  endif()
+  set(owner likeness_headers_${kind})
+  if(NOT TARGET ${owner})
+    set(source ${CMAKE_BINARY_DIR}/${owner}.cc)
+    file(CONFIGURE OUTPUT ${source} CONTENT "")
+    add_library(${owner} OBJECT ${source})
+    target_compile_features(${owner} PRIVATE cxx_std_20)
+    target_compile_options(${owner} PRIVATE $<$<NOT:$<STREQUAL:${kind},room>>:-O1> ${LIKENESS_WARNINGS})
+    target_precompile_headers(${owner} PRIVATE ${LIKENESS_COMMON_HEADERS})
+    if(kind STREQUAL "test")
+      target_link_libraries(${owner} PRIVATE GTest::gtest)
+      target_precompile_headers(${owner} PRIVATE <gmock/gmock.h> <gtest/gtest.h>)
+      set_target_properties(${owner} PROPERTIES POSITION_INDEPENDENT_CODE OFF)
+    endif()
+  endif()
+  target_precompile_headers(${target} REUSE_FROM ${owner})
+endfunction()
+
 # The preset release compiles a room's sources together, eight at a time: a third of the time. What is named in the
 # anonymous namespaces of a room is therefore named once; APART says that a room's sources cannot be joined. COLD says
 # that the time of a whole room hardly counts.
 function(likeness_library name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "APART;COLD" "" "SOURCES;NEEDS;WITH;FOLDERS")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "APART;COLD" "" "SOURCES;COMMANDS;NEEDS;WITH;FOLDERS")
   set(target likeness_${name})
+  if(arg_COMMANDS)
+    list(TRANSFORM arg_COMMANDS PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/)
+    set_property(GLOBAL APPEND PROPERTY LIKENESS_COMMANDS ${arg_COMMANDS})
+    set_property(GLOBAL APPEND PROPERTY LIKENESS_COMMANDS_NEED likeness::${name} ${arg_NEEDS} ${arg_WITH})
+  endif()
   if(arg_SOURCES)
-    # Command lines, pages and tables run once a process: a third of the time to compile them is worth more.
-    set(words "(command|page|report|tables|verdict)\\.cc$")
+    # Pages and tables run once a process: a third of the time to compile them is worth more.
+    set(words "(page|report|tables|verdict)\\.cc$")
     if(arg_COLD)
       set(words "\\.cc$")
     endif()
@@ -61,9 +98,11 @@ function(likeness_library name)
       target_compile_options(${target}_once PRIVATE $<$<CONFIG:Release>:-O1>)
       target_compile_definitions(${target}_once PRIVATE $<TARGET_PROPERTY:${target},COMPILE_DEFINITIONS>)
       target_include_directories(${target}_once PRIVATE ${PROJECT_SOURCE_DIR})
+      likeness_parse_once(${target}_once once)
       list(APPEND arg_SOURCES $<TARGET_OBJECTS:${target}_once>)
     endif()
     add_library(${target} STATIC ${arg_SOURCES})
+    likeness_parse_once(${target} room)
     foreach(part ${target} ${target}_once)
       if(TARGET ${part})
         target_compile_options(${part} PRIVATE ${LIKENESS_WARNINGS})
@@ -93,6 +132,7 @@ function(likeness_library name)
           DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/likeness)
   foreach(inner . ${arg_FOLDERS})
     file(GLOB headers CONFIGURE_DEPENDS ${inner}/*.h)
+    list(FILTER headers EXCLUDE REGEX "command\\.h$")
     cmake_path(SET at NORMALIZE ${CMAKE_INSTALL_INCLUDEDIR}/likeness/${folder}/${inner})
     install(FILES ${headers} COMPONENT ${name} DESTINATION ${at})
   endforeach()
@@ -103,6 +143,22 @@ function(likeness_library name)
   string(CONCAT rooms "set(likeness_${name}_needs ${arg_NEEDS})\n" "set(likeness_${name}_packages ${arg_WITH})\n")
   string(REPLACE ";" " " rooms "${rooms}")
   set_property(GLOBAL APPEND_STRING PROPERTY LIKENESS_ROOMS "${rooms}")
+endfunction()
+
+# The files in which rooms read the words of a command line, as one library of the program (and of tests that call
+# them). CLI11 takes five seconds of each source that includes it, so the preset release reads it twice for all; and
+# who uses the rooms as libraries needs no CLI11.
+function(likeness_commands)
+  get_property(sources GLOBAL PROPERTY LIKENESS_COMMANDS)
+  get_property(needs GLOBAL PROPERTY LIKENESS_COMMANDS_NEED)
+  list(REMOVE_DUPLICATES needs)
+  add_library(likeness_commands STATIC ${sources})
+  add_library(likeness::commands ALIAS likeness_commands)
+  target_compile_features(likeness_commands PRIVATE cxx_std_20)
+  target_compile_options(likeness_commands PRIVATE $<$<CONFIG:Release>:-O1> ${LIKENESS_WARNINGS})
+  target_compile_definitions(likeness_commands PRIVATE LIKENESS_VERSION="${PROJECT_VERSION}")
+  target_include_directories(likeness_commands PRIVATE ${PROJECT_SOURCE_DIR})
+  target_link_libraries(likeness_commands PRIVATE CLI11::CLI11 ${needs})
 endfunction()
 
 # A part of a room that is loaded when it is first used (render/files/module.h), for libraries that cost every process time.
@@ -146,6 +202,8 @@ function(likeness_test name)
     target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O2>)
   else()
     target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)
+    likeness_parse_once(${name} test)
+    set_target_properties(${name} PROPERTIES POSITION_INDEPENDENT_CODE OFF)
   endif()
   if(arg_APART)
     set_target_properties(${name} PROPERTIES UNITY_BUILD OFF)

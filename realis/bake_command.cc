@@ -37,7 +37,7 @@ namespace {
 
 using files::UsageError;
 
-struct Request {
+struct BakeRequest {
   std::string capture, camera, variant, lobes = "auto", name = "bake", out, result = "realis";
   std::string scene, object;
   int dominant = 0, mixes = 0, bits = 8, resolution = TextureBakeOptions{}.resolution;
@@ -51,7 +51,7 @@ constexpr const char* kMakesOne =
     "`likeness olat render --variant NAME` makes one, and without --variant the renders are made here, from the "
     "photographs";
 
-BakeOptions options_of(const Request& request) {
+BakeOptions options_of(const BakeRequest& request) {
   BakeOptions options;
   options.channels = request.is_rgb ? Channels::kRgb : Channels::kLuminance;
   options.is_exact = request.is_exact;
@@ -124,12 +124,12 @@ void write_results(capture::Capture& capture, const Subject& subject, const bake
   }
 }
 
-std::filesystem::path folder_of(const Request& request, const capture::Capture& capture) {
+std::filesystem::path folder_of(const BakeRequest& request, const capture::Capture& capture) {
   return request.out.empty() ? capture.root / "realis" / request.name : std::filesystem::path(request.out);
 }
 
 // The mesh of a scene, from all cameras.
-Summary bake_mesh(const Request& request, const BakeOptions& options, const weight::Choice& choice,
+Summary bake_mesh(const BakeRequest& request, const BakeOptions& options, const weight::Choice& choice,
                   const capture::Capture& capture, const GoesOn& goes_on) {
   if (request.has_layers) throw UsageError("--layers are of a camera's picture; without --scene they can be looked at");
   TextureBakeOptions texture;
@@ -171,7 +171,7 @@ Summary bake_mesh(const Request& request, const BakeOptions& options, const weig
 }
 
 // A camera's picture.
-Summary bake_picture(const Request& request, const BakeOptions& options, const weight::Choice& choice,
+Summary bake_picture(const BakeRequest& request, const BakeOptions& options, const weight::Choice& choice,
                      capture::Capture& capture, const GoesOn& goes_on, bool& is_written) {
   if (!request.object.empty()) throw UsageError("--object is an instance of a scene; --scene names its file");
   const std::size_t camera = camera_named(capture, request.camera);
@@ -222,7 +222,7 @@ Summary bake_picture(const Request& request, const BakeOptions& options, const w
   return out;
 }
 
-int run_bake(const Request& request) {
+int run_bake(const BakeRequest& request) {
   files::catch_interrupts();
   const BakeOptions options = options_of(request);
   weight::Choice choice = weight::choice_of(request.only, request.with, request.without, request.weights);
@@ -256,7 +256,7 @@ int run_bake(const Request& request) {
 
 void add_bake(CLI::App& realis, int& exit_code) {
   CLI::App* bake = realis.add_subcommand("bake", "Bake the difference of photographs and renders of a capture");
-  auto request = std::make_shared<Request>();
+  auto request = std::make_shared<BakeRequest>();
   bake->add_option("CAPTURE", request->capture, "folder with capture.json (likeness olat import)")->required();
   bake->add_option("--camera", request->camera,
                    "whose picture is the texture; default: the first. With --scene: only that one");

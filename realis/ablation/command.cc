@@ -13,13 +13,13 @@
 namespace likeness::realis {
 namespace {
 
-struct Request {
+struct AblationRequest {
   AblationOptions options;
   std::filesystem::path out = "ablation";
   bool is_json = false;
 };
 
-int run_ablate(Request request) {
+int run_ablate(AblationRequest request) {
   files::catch_interrupts();
   std::filesystem::create_directories(request.out);
   request.options.folder = request.out / "captures";
@@ -44,7 +44,7 @@ int run_ablate(Request request) {
 
 void add_ablate(CLI::App& realis, int& exit_code) {
   CLI::App* ablate = realis.add_subcommand("ablate", "What each weight is worth, on captures with known faults");
-  auto request = std::make_shared<Request>();
+  auto request = std::make_shared<AblationRequest>();
   AblationOptions& options = request->options;
   ablate->add_option("--lights", options.lights, "of the captures; may be repeated")
       ->check(CLI::Range(std::size_t{2}, std::size_t{1024}))

@@ -18,7 +18,7 @@
 namespace likeness::realis {
 namespace {
 
-struct Request {
+struct ExportRequest {
   std::string capture, out, format = "rbf", lights, ev = "auto";
   ExportOptions options;
   bool is_json = false;
@@ -104,7 +104,7 @@ std::string json_of(const Exported& done, const ExportOptions& options) {
   return out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-int run_export(Request request) {
+int run_export(ExportRequest request) {
   files::catch_interrupts();
   ExportOptions& options = request.options;
   options.format = format_of(request.format);
@@ -130,7 +130,7 @@ int run_export(Request request) {
 void add_export(CLI::App& realis, int& exit_code) {
   CLI::App* sub =
       realis.add_subcommand("export", "Write a bake for relighting programs of others, and a page to look at");
-  auto request = std::make_shared<Request>();
+  auto request = std::make_shared<ExportRequest>();
   std::string formats;
   for (const FormatRow& row : kFormats)
     formats += "\n  " + std::string(row.name) + std::string(10 - row.name.size(), ' ') + std::string(row.text);

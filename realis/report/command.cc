@@ -21,7 +21,7 @@
 namespace likeness::realis {
 namespace {
 
-struct Request {
+struct ReportRequest {
   std::string capture, camera, variant, out;
   std::size_t texels = StudyOptions{}.texels;
   bool no_rgb = false, no_bake = false, is_json = false;
@@ -29,7 +29,7 @@ struct Request {
 };
 
 // Bakes as `likeness realis bake` does, where no bake is there.
-void bake_if_absent(const capture::Capture& capture, const Request& request) {
+void bake_if_absent(const capture::Capture& capture, const ReportRequest& request) {
   if (std::filesystem::exists(capture.root / "realis" / "bake" / "bake.json")) return;
   CLI::App program;
   int exit_code = 0;
@@ -49,7 +49,7 @@ void bake_if_absent(const capture::Capture& capture, const Request& request) {
   if (exit_code != 0) throw files::Interrupted();
 }
 
-int run_report(const Request& request) {
+int run_report(const ReportRequest& request) {
   files::catch_interrupts();
   const capture::Capture capture = capture::read_capture(request.capture);
   StudyOptions options;
@@ -101,7 +101,7 @@ int run_report(const Request& request) {
 
 void add_report(CLI::App& realis, int& exit_code) {
   CLI::App* report = realis.add_subcommand("report", "Leave every light out once; compare with other ways to relight");
-  auto request = std::make_shared<Request>();
+  auto request = std::make_shared<ReportRequest>();
   report->add_option("CAPTURE", request->capture, "folder with capture.json (likeness olat import)")->required();
   report->add_option("--camera", request->camera, "whose photographs; default: the first");
   report->add_option("--variant", request->variant,

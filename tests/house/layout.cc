@@ -82,7 +82,7 @@ std::map<std::string, Room> rooms_of(const Tree& tree) {
       words >> name;
       Room room{folder_of(path), {}};
       while (words >> word) {
-        if (is_one_of(word, {"SOURCES", "NEEDS", "WITH", "FOLDERS"})) list = word;
+        if (is_one_of(word, {"SOURCES", "COMMANDS", "NEEDS", "WITH", "FOLDERS"})) list = word;
         else if (list == "NEEDS") room.needs.push_back(word.substr(word.rfind(':') + 1));
       }
       rooms[name] = room;

@@ -28,7 +28,7 @@ DisplayPicture flat(int width, int height, std::uint8_t r, std::uint8_t g, std::
 // Bytes of a linear congruential generator (Numerical Recipes), and shapes on a gradient: the inputs of the numbers
 // below, which are those of a program of its own: the authors' published numpy listing (NVlabs/flip, python/flip_api.py)
 // in double precision, with filters of two dimensions instead of separated ones. Their own test pictures are not here.
-DisplayPicture noise(int width, int height, std::uint32_t seed) {
+DisplayPicture flip_noise(int width, int height, std::uint32_t seed) {
   DisplayPicture out(width, height);
   for (std::uint8_t& v : out.rgb) {
     seed = seed * 1664525u + 1013904223u;
@@ -166,7 +166,7 @@ TEST(FlipSteps, HaveAToneCurveThatEndsAtWhite) {
 }
 
 TEST(Flip, OfEqualPicturesIsZeroEverywhere) {
-  const ErrorMap map = flip(noise(40, 30, 3), noise(40, 30, 3));
+  const ErrorMap map = flip(flip_noise(40, 30, 3), flip_noise(40, 30, 3));
   EXPECT_EQ(map.mean, 0);
   for (const float e : map.error) EXPECT_EQ(e, 0);
 }
@@ -181,7 +181,7 @@ TEST(Flip, OfFlatPicturesIsTheColorDifferenceAlone) {
 }
 
 TEST(Flip, IsThatOfTheAuthorsListing) {
-  const ErrorMap noisy = flip(noise(40, 30, 1), noise(40, 30, 2));
+  const ErrorMap noisy = flip(flip_noise(40, 30, 1), flip_noise(40, 30, 2));
   EXPECT_NEAR(noisy.mean, 0.43545887751145435, 1e-5);  // float against double, as are all below
   EXPECT_NEAR(at(noisy, 0, 0), 0.7266460932638317, 1e-5);
   EXPECT_NEAR(at(noisy, 39, 29), 0.8500318095593018, 1e-5);
@@ -213,7 +213,7 @@ TEST(Flip, SeesASinglePixel) {
 }
 
 TEST(Flip, IsSymmetricInItsPicturesAndInItsAxes) {
-  const DisplayPicture p = noise(17, 23, 5), q = noise(17, 23, 6);
+  const DisplayPicture p = flip_noise(17, 23, 5), q = flip_noise(17, 23, 6);
   EXPECT_EQ(flip(p, q).error, flip(q, p).error);
   const auto transposed = [](const DisplayPicture& in) {
     DisplayPicture out(in.height, in.width);

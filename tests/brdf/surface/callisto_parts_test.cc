@@ -9,10 +9,10 @@ namespace likeness::brdf {
 namespace {
 
 template <class S>
-using C = Callisto<S>;
+using Model = Callisto<S>;
 
 template <class S>
-class Random {
+class Draws {
  public:
   S operator()(double low = 0, double high = 1) { return static_cast<S>(low + (high - low) * uniform_(engine_)); }
   Vec3<S> direction() {
@@ -28,17 +28,17 @@ class Random {
 
 // A material that needs `parts` and no other.
 template <class S>
-C<S> material(unsigned parts, Random<S>& random) {
-  C<S> m;
+Model<S> material(unsigned parts, Draws<S>& random) {
+  Model<S> m;
   m.base_color = random.color();
   m.specular = random();
   m.roughness = random();
-  m.metallic = (parts & C<S>::kDiffuse) != 0 ? random(0, 0.9) : S(1);
-  if ((parts & C<S>::kRise) != 0) m.diffuse_fresnel = random(2, 30), m.diffuse_fresnel_tint = random.color();
-  if ((parts & C<S>::kRetro) != 0) m.retroreflection = random(2, 30), m.retroreflection_tint = random.color();
-  if ((parts & C<S>::kTerminator) != 0) m.smooth_terminator = random(0.1, 1);
-  if ((parts & C<S>::kFalloff) != 0) m.specular_fresnel_falloff = random(0.6, 0.9);
-  if ((parts & C<S>::kSecondLobe) != 0) m.dual_specular_opacity = random(0.1, 1);
+  m.metallic = (parts & Model<S>::kDiffuse) != 0 ? random(0, 0.9) : S(1);
+  if ((parts & Model<S>::kRise) != 0) m.diffuse_fresnel = random(2, 30), m.diffuse_fresnel_tint = random.color();
+  if ((parts & Model<S>::kRetro) != 0) m.retroreflection = random(2, 30), m.retroreflection_tint = random.color();
+  if ((parts & Model<S>::kTerminator) != 0) m.smooth_terminator = random(0.1, 1);
+  if ((parts & Model<S>::kFalloff) != 0) m.specular_fresnel_falloff = random(0.6, 0.9);
+  if ((parts & Model<S>::kSecondLobe) != 0) m.dual_specular_opacity = random(0.1, 1);
   m.diffuse_fresnel_falloff = random();
   m.retroreflection_falloff = random();
   m.smooth_terminator_length = random();
@@ -52,11 +52,12 @@ bool same(const Rgb<S>& a, const Rgb<S>& b) {
 }
 
 template <class S, unsigned kParts>
-void expect_same_as_whole(Random<S>& random) {
-  constexpr bool kIsPossible = (kParts & C<S>::kDiffuse) != 0 || (kParts & (C<S>::kRise | C<S>::kRetro)) == 0;
+void expect_same_as_whole(Draws<S>& random) {
+  constexpr bool kIsPossible =
+      (kParts & Model<S>::kDiffuse) != 0 || (kParts & (Model<S>::kRise | Model<S>::kRetro)) == 0;
   if constexpr (kIsPossible) {
     for (int i = 0; i < 300; ++i) {
-      const C<S> m = material<S>(kParts, random);
+      const Model<S> m = material<S>(kParts, random);
       ASSERT_EQ(m.parts([](std::string_view) { return true; }), kParts);
       const Vec3<S> v = random.direction(), l = random.direction();
       const Geometry<S> g(l, v);
@@ -68,7 +69,7 @@ void expect_same_as_whole(Random<S>& random) {
 
 template <class S>
 void every_set() {
-  Random<S> random;
+  Draws<S> random;
   [&]<unsigned... P>(std::integer_sequence<unsigned, P...>) {
     (expect_same_as_whole<S, P>(random), ...);
   }(std::make_integer_sequence<unsigned, 64>{});
@@ -80,23 +81,23 @@ TEST(CallistoParts, WhatAMaterialDoesNotNeedChangesNoBit) {
 }
 
 TEST(CallistoParts, DefaultsNeedTheDiffuseOnly) {
-  EXPECT_EQ(C<double>{}.parts([](std::string_view) { return true; }), C<double>::kDiffuse);
+  EXPECT_EQ(Model<double>{}.parts([](std::string_view) { return true; }), Model<double>::kDiffuse);
 }
 
 TEST(CallistoParts, AParameterThatATextureGivesNeedsItsPart) {
   const auto but = [](std::string_view varied) {
-    return C<double>{}.parts([&](std::string_view name) { return name != varied; });
+    return Model<double>{}.parts([&](std::string_view name) { return name != varied; });
   };
-  EXPECT_EQ(but("roughness"), C<double>::kDiffuse);
-  EXPECT_EQ(but("diffuse_fresnel"), C<double>::kDiffuse | C<double>::kRise);
-  EXPECT_EQ(but("retroreflection_tint"), C<double>::kDiffuse | C<double>::kRetro);
-  EXPECT_EQ(but("smooth_terminator"), C<double>::kDiffuse | C<double>::kTerminator);
-  EXPECT_EQ(but("specular_fresnel_falloff"), C<double>::kDiffuse | C<double>::kFalloff);
-  EXPECT_EQ(but("dual_specular_opacity"), C<double>::kDiffuse | C<double>::kSecondLobe);
-  C<double> metal;
+  EXPECT_EQ(but("roughness"), Model<double>::kDiffuse);
+  EXPECT_EQ(but("diffuse_fresnel"), Model<double>::kDiffuse | Model<double>::kRise);
+  EXPECT_EQ(but("retroreflection_tint"), Model<double>::kDiffuse | Model<double>::kRetro);
+  EXPECT_EQ(but("smooth_terminator"), Model<double>::kDiffuse | Model<double>::kTerminator);
+  EXPECT_EQ(but("specular_fresnel_falloff"), Model<double>::kDiffuse | Model<double>::kFalloff);
+  EXPECT_EQ(but("dual_specular_opacity"), Model<double>::kDiffuse | Model<double>::kSecondLobe);
+  Model<double> metal;
   metal.metallic = 1;
   EXPECT_EQ(metal.parts([](std::string_view) { return true; }), 0u);
-  EXPECT_EQ(metal.parts([](std::string_view name) { return name != "metallic"; }), C<double>::kDiffuse);
+  EXPECT_EQ(metal.parts([](std::string_view name) { return name != "metallic"; }), Model<double>::kDiffuse);
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ Channels dual(const Callisto<double>& model, const Vec3<double>& diffuse, const 
   return channels(dual_normal(model_in<S>(model), about(diffuse), about(specular)));
 }
 
-Callisto<double> drawn(Random& random) {
+Callisto<double> drawn_callisto(Random& random) {
   return random_model<Callisto<double>>(random, [](const Parameter& row) { return row.typical; });
 }
 
@@ -29,7 +29,7 @@ TYPED_TEST(DualNormalIn, TheFramesOwnNormalTwiceIsCallistoTimesTheCosine) {
   using S = TypeParam;
   Random random(1);
   for (int i = 0; i < 5000; ++i) {
-    const Callisto<double> model = drawn(random);
+    const Callisto<double> model = drawn_callisto(random);
     const auto l = random.direction(0.001), v = random.direction(0.001);
     const Channels got = dual<S>(model, {0, 0, 1}, {0, 0, 1}, l, v), f = eval_in<S>(model, Geometry<double>(l, v));
     const double cosine = first(constant<S>(l.z));
@@ -43,7 +43,7 @@ TYPED_TEST(DualNormalIn, OneTiltedNormalTwiceIsCallistoInItsFrame) {
   using S = TypeParam;
   Random random(2);
   for (int i = 0; i < 3000; ++i) {
-    Callisto<double> model = drawn(random);
+    Callisto<double> model = drawn_callisto(random);
     model.roughness = random.uniform(0.2, 1);
     const double angle = random.uniform(-1, 1), c = std::cos(angle), s = std::sin(angle);
     const auto turned = [&](const Vec3<double>& w) { return Vec3<double>{c * w.x + s * w.z, w.y, c * w.z - s * w.x}; };
@@ -149,7 +149,7 @@ TYPED_TEST(DualNormalIn, TheRowIsNearDouble) {
     for (const Vec3<double>& w :
          {random.direction(0.01), random.direction(0.01), random.direction(0.5), random.direction(0.5)})
       in.insert(in.end(), {w.x, w.y, w.z});
-    for (const double x : channels_of(drawn(random))) {
+    for (const double x : channels_of(drawn_callisto(random))) {
       volatile float rounded = float(x);  // parameters are floats already: 1 - metallic has what digits its input has
       in.push_back(double(rounded));
     }

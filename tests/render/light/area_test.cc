@@ -19,8 +19,8 @@ namespace {
 
 using brdf::chi_square;
 using brdf::sidak;
-constexpr int kDraws = 60000;
-constexpr std::size_t kCoarse = 16, kFine = 64;
+constexpr int kAreaDraws = 60000;
+constexpr std::size_t kCoarseCells = 16, kFineCells = 64;
 
 // The whole suite below: 3 tests for each of the places of each light; together they fail by chance once in 100.
 constexpr std::size_t kTests = 3 * 40;
@@ -47,23 +47,24 @@ struct Shape {
 
 void expect_sound(const std::string& what, const Shape& shape, const glm::vec3& point, double pdf_tolerance = 2e-3) {
   SCOPED_TRACE(what);
-  std::vector<double> fine(kFine * kFine, 0);
+  std::vector<double> fine(kFineCells * kFineCells, 0);
   double whole = 0;
   constexpr int kSteps = 4;  // of the midpoint rule in each fine bin
-  for (std::size_t y = 0; y < kFine; ++y)
-    for (std::size_t x = 0; x < kFine; ++x)
+  for (std::size_t y = 0; y < kFineCells; ++y)
+    for (std::size_t x = 0; x < kFineCells; ++x)
       for (int j = 0; j < kSteps; ++j)
         for (int i = 0; i < kSteps; ++i) {
-          const Shape::At at = shape.at({(static_cast<double>(x) + (i + 0.5) / kSteps) / kFine,
-                                         (static_cast<double>(y) + (j + 0.5) / kSteps) / kFine});
-          const double p = shape.pdf(at.direction, at.distance) * at.solid_angle / (kFine * kFine * kSteps * kSteps);
-          fine[y * kFine + x] += p, whole += p;
+          const Shape::At at = shape.at({(static_cast<double>(x) + (i + 0.5) / kSteps) / kFineCells,
+                                         (static_cast<double>(y) + (j + 0.5) / kSteps) / kFineCells});
+          const double p =
+              shape.pdf(at.direction, at.distance) * at.solid_angle / (kFineCells * kFineCells * kSteps * kSteps);
+          fine[y * kFineCells + x] += p, whole += p;
         }
   EXPECT_NEAR(whole, 1, pdf_tolerance);
-  std::vector<double> counts(kFine * kFine, 0);
+  std::vector<double> counts(kFineCells * kFineCells, 0);
   Plain random{static_cast<std::uint32_t>(what.size())};
   double worst = 0, outside = 0;
-  for (int i = 0; i < kDraws; ++i) {
+  for (int i = 0; i < kAreaDraws; ++i) {
     const Towards t = shape.sample({random.next(), random.next()});
     ASSERT_GT(t.pdf, 0.0f);
     ASSERT_TRUE(std::isfinite(t.pdf));
@@ -74,18 +75,18 @@ void expect_sound(const std::string& what, const Shape& shape, const glm::vec3& 
     const glm::dvec3 on = glm::dvec3(point) + glm::dvec3(t.direction) * static_cast<double>(t.distance);
     const glm::dvec2 q = shape.place(on);
     outside = std::max({outside, -q.x, -q.y, q.x - 1, q.y - 1});
-    const auto bin = [](double v) { return static_cast<std::size_t>(std::clamp(v, 0.0, 0.999999) * kFine); };
-    ++counts[bin(q.y) * kFine + bin(q.x)];
+    const auto bin = [](double v) { return static_cast<std::size_t>(std::clamp(v, 0.0, 0.999999) * kFineCells); };
+    ++counts[bin(q.y) * kFineCells + bin(q.x)];
   }
   EXPECT_LT(worst, 2e-3);    // sample's own pdf against pdf(): cosines in float near the plane of the light
   EXPECT_LT(outside, 2e-2);  // of the light's width: a float direction misses by 1e-7 times the distance
-  std::vector<double> in_x(kFine, 0), in_y(kFine, 0), of_x(kFine, 0), of_y(kFine, 0);
-  std::vector<double> coarse(kCoarse * kCoarse, 0), of_coarse(kCoarse * kCoarse, 0);
-  for (std::size_t y = 0; y < kFine; ++y)
-    for (std::size_t x = 0; x < kFine; ++x) {
-      const double count = counts[y * kFine + x], expected = fine[y * kFine + x] / whole * kDraws;
+  std::vector<double> in_x(kFineCells, 0), in_y(kFineCells, 0), of_x(kFineCells, 0), of_y(kFineCells, 0);
+  std::vector<double> coarse(kCoarseCells * kCoarseCells, 0), of_coarse(kCoarseCells * kCoarseCells, 0);
+  for (std::size_t y = 0; y < kFineCells; ++y)
+    for (std::size_t x = 0; x < kFineCells; ++x) {
+      const double count = counts[y * kFineCells + x], expected = fine[y * kFineCells + x] / whole * kAreaDraws;
       in_x[x] += count, of_x[x] += expected, in_y[y] += count, of_y[y] += expected;
-      const std::size_t cell = y * kCoarse / kFine * kCoarse + x * kCoarse / kFine;
+      const std::size_t cell = y * kCoarseCells / kFineCells * kCoarseCells + x * kCoarseCells / kFineCells;
       coarse[cell] += count, of_coarse[cell] += expected;
     }
   EXPECT_GE(chi_square(coarse, of_coarse).p, kLeastP);

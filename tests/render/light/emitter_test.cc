@@ -16,7 +16,7 @@ namespace {
 
 using brdf::chi_square;
 using brdf::sidak;
-constexpr std::uint32_t kDraws = 65536;
+constexpr std::uint32_t kEmitterDraws = 65536;
 
 // A unit square in the plane z = 0, cut into triangles of very different sizes; it faces +z.
 scene::Mesh square(bool has_uvs = true) {
@@ -39,9 +39,10 @@ scene::Scene scene_with(const glm::mat4& place = glm::mat4(1)) {
 // The irradiance of red at a point by many samples of light 0.
 double irradiance(const Lights& lights, const glm::vec3& point, const glm::vec3& normal, std::uint32_t seed = 1) {
   double sum = 0;
-  for (std::uint32_t i = 0; i < kDraws; ++i) {
+  for (std::uint32_t i = 0; i < kEmitterDraws; ++i) {
     const Sample s = lights.sample_light(0, point, sampling::Samples(0, i, seed).next());
-    if (s.is_some()) sum += static_cast<double>(s.value.r * std::max(glm::dot(s.to_light, normal), 0.0f)) / kDraws;
+    if (s.is_some())
+      sum += static_cast<double>(s.value.r * std::max(glm::dot(s.to_light, normal), 0.0f)) / kEmitterDraws;
   }
   return sum;
 }
@@ -136,7 +137,7 @@ TEST(Emitter, SamplesByTheDensityThatItStates) {
                   to_v = glm::cross(u, n) / glm::dot(v, glm::cross(u, n));
   constexpr std::size_t kBins = 32;
   std::vector<double> counts(kBins * kBins, 0), in_x(kBins, 0), in_y(kBins, 0);
-  for (std::uint32_t i = 0; i < kDraws; ++i) {
+  for (std::uint32_t i = 0; i < kEmitterDraws; ++i) {
     const Sample s = lights.sample_light(0, point, sampling::Samples(i, 0, 7).next());
     ASSERT_GT(s.pdf, 0.0f);
     const glm::vec3 on = point + s.distance * s.to_light - corner;
@@ -164,9 +165,9 @@ TEST(Emitter, SamplesByTheDensityThatItStates) {
     ASSERT_NEAR(lights.emitter_pdf(0, triangle, point, {0, 0, -1}, s.to_light, s.distance, n) / s.pdf, 1, 1e-4);
   }
   const double least = sidak(0.01, 3);  // significance 1 %; fixed seed
-  EXPECT_GE(chi_square(counts, std::vector<double>(kBins * kBins, double(kDraws) / (kBins * kBins))).p, least);
-  EXPECT_GE(chi_square(in_x, std::vector<double>(kBins, double(kDraws) / kBins)).p, least);
-  EXPECT_GE(chi_square(in_y, std::vector<double>(kBins, double(kDraws) / kBins)).p, least);
+  EXPECT_GE(chi_square(counts, std::vector<double>(kBins * kBins, double(kEmitterDraws) / (kBins * kBins))).p, least);
+  EXPECT_GE(chi_square(in_x, std::vector<double>(kBins, double(kEmitterDraws) / kBins)).p, least);
+  EXPECT_GE(chi_square(in_y, std::vector<double>(kBins, double(kEmitterDraws) / kBins)).p, least);
   EXPECT_EQ(lights.emitter_pdf(0, 4, point, {0, 0, -1}, {0, 0, 1}, 1, n), 0);  // the triangle without area
 }
 

@@ -13,7 +13,7 @@
 namespace likeness::light {
 namespace {
 
-constexpr std::uint32_t kDraws = 65536;
+constexpr std::uint32_t kLightDraws = 65536;
 
 scene::Scene scene_of(const std::vector<scene::LightShape>& shapes) {
   scene::Scene scene;
@@ -23,9 +23,9 @@ scene::Scene scene_of(const std::vector<scene::LightShape>& shapes) {
 
 double irradiance(const Lights& lights, std::size_t index, const glm::vec3& point, const glm::vec3& normal) {
   double sum = 0;
-  for (std::uint32_t i = 0; i < kDraws; ++i) {
+  for (std::uint32_t i = 0; i < kLightDraws; ++i) {
     const Sample s = lights.sample_light(index, point, sampling::Samples(0, i, 1).next());
-    if (s.is_some()) sum += static_cast<double>(s.value.r * std::max(glm::dot(s.to_light, normal), 0.0f)) / kDraws;
+    if (s.is_some()) sum += static_cast<double>(s.value.r * std::max(glm::dot(s.to_light, normal), 0.0f)) / kLightDraws;
   }
   return sum;
 }
@@ -196,9 +196,9 @@ TEST(Lights, AreChosenAsOftenAsValueAndDensitySay) {
   ASSERT_EQ(lights.count(), 9u);
   for (const auto& [point, normal] : kPlaces) {
     std::vector<double> counts(lights.count(), 0), stated(lights.count(), 0);
-    for (std::uint32_t i = 0; i < kDraws; ++i) {
+    for (std::uint32_t i = 0; i < kLightDraws; ++i) {
       const glm::vec2 u = sampling::Samples(3, i, 1).next();
-      const float choice = (static_cast<float>(i) + 0.5f) / kDraws;
+      const float choice = (static_cast<float>(i) + 0.5f) / kLightDraws;
       const Sample s = lights.sample(point, normal, choice, u);
       if (!s.is_some()) continue;
       ++counts[s.light];
@@ -217,9 +217,9 @@ TEST(Lights, AreChosenAsOftenAsValueAndDensitySay) {
     for (std::size_t i = 0; i < counts.size(); ++i) {
       sum += stated[i];
       // A light that sends nothing from some of its places has fewer samples than choices.
-      EXPECT_LE(counts[i] / kDraws, stated[i] + 1e-3) << i;
+      EXPECT_LE(counts[i] / kLightDraws, stated[i] + 1e-3) << i;
       if (i != 5 && i != 7 && i != 8) {
-        EXPECT_NEAR(counts[i] / kDraws, stated[i], 1e-3) << i << " at " << point.x;
+        EXPECT_NEAR(counts[i] / kLightDraws, stated[i], 1e-3) << i << " at " << point.x;
       }
     }
     EXPECT_LE(sum, 1 + 1e-5);

@@ -14,7 +14,7 @@
 namespace likeness::ray {
 namespace {
 
-struct Random {
+struct Stream {
   std::uint32_t state = 1;
   float next() { return sampling::unit(state = sampling::mixed(state + 0x9e3779b9u)); }
   glm::vec3 direction() {
@@ -24,14 +24,14 @@ struct Random {
 };
 
 // A direction above a normal, often at a very small angle to the surface.
-glm::vec3 leaving(const glm::vec3& normal, Random& random) {
+glm::vec3 leaving(const glm::vec3& normal, Stream& random) {
   const float z = random.next() < 0.5f ? random.next() : std::pow(10.0f, -4 * random.next());
   const float phi = 6.2831853f * random.next(), s = std::sqrt(1 - z * z);
   return Frame(normal).world({s * std::cos(phi), s * std::sin(phi), z});
 }
 
 TEST(Offset, NoTriangleIsMetAgain) {
-  Random random;
+  Stream random;
   int tried = 0, met = 0;
   for (const float far : {0.0f, 1.0f, 100.0f, 10000.0f})
     for (const float size : {0.001f, 1.0f, 1000.0f})
@@ -62,7 +62,7 @@ TEST(Offset, NoTriangleIsMetAgain) {
 }
 
 TEST(Offset, NoSphereIsMetAgainFromOutside) {
-  Random random;
+  Stream random;
   int tried = 0, met = 0, missed = 0;
   for (const float far : {0.0f, 1.0f, 100.0f, 10000.0f})
     for (const float radius : {0.01f, 1.0f, 1000.0f}) {
@@ -89,7 +89,7 @@ TEST(Offset, NoSphereIsMetAgainFromOutside) {
 }
 
 TEST(Offset, IsNoFartherThanItSays) {
-  Random random;
+  Stream random;
   for (int i = 0; i < 100000; ++i) {
     const float size = std::pow(10.0f, 10 * random.next() - 6);
     const glm::vec3 p = size * random.direction(), n = random.direction(), q = beside(p, n);

@@ -12,7 +12,7 @@ namespace {
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-scene::Scene stage() {
+scene::Scene hard_stage() {
   scene::Scene scene;
   scene.meshes = {square_mesh(), sphere_mesh(), box_mesh()};
   brdf::Callisto<double> callisto;
@@ -41,13 +41,13 @@ scene::Image bad_image() {
 }
 
 TEST(HardScenes, TexturesThatAreNoNumbersMakeNoPixelThatIsNone) {
-  auto scene = stage();
+  auto scene = hard_stage();
   scene.images = {bad_image()};
   const scene::Texture texture{0};
   for (std::size_t i = 0; i < brdf::Callisto<double>::kParameters.size(); ++i)
     scene.materials[1].bindings.push_back({i, texture});
   expect_numbers("parameters", scene);
-  scene = stage();
+  scene = hard_stage();
   scene.images = {bad_image()};
   scene.materials[0].normal_map = scene.materials[1].normal_map = texture;
   expect_numbers("normals", scene);
@@ -55,18 +55,18 @@ TEST(HardScenes, TexturesThatAreNoNumbersMakeNoPixelThatIsNone) {
   expect_numbers("dual normals", scene);
   scene.materials[1].opacity = texture;
   expect_numbers("opacity", scene);
-  scene = stage();
+  scene = hard_stage();
   scene.images = {bad_image()};
   scene.materials[1].emission = {1, 1, 1}, scene.materials[1].emission_map = texture;
   expect_numbers("emission", scene, 1);
-  scene = stage();
+  scene = hard_stage();
   scene.images = {bad_image()};
   scene.environment->image = 0;
   expect_numbers("environment", scene, 1);
 }
 
 TEST(HardScenes, ATexelOfTheSkyThatIsNoNumberCostsItsOwnLightOnly) {
-  auto scene = stage();
+  auto scene = hard_stage();
   scene.images = {{"sky", {16, 8, 1, {}, std::vector<float>(128, 1.0f)}}};
   scene.environment->image = 0;
   const double good = rendered(scene, {.samples = 64}).mean.g;
@@ -76,7 +76,7 @@ TEST(HardScenes, ATexelOfTheSkyThatIsNoNumberCostsItsOwnLightOnly) {
 }
 
 TEST(HardScenes, TrianglesAndLightsWithoutAreaAreNothing) {
-  auto scene = stage();
+  auto scene = hard_stage();
   scene.meshes[2].triangles = {{0, 0, 0}, {0, 1, 1}, {0, 1, 2}};
   scene.meshes[2].positions[2] = scene.meshes[2].positions[1];
   scene.materials[1].emission = {1, 1, 1};
@@ -96,19 +96,19 @@ TEST(HardScenes, TrianglesAndLightsWithoutAreaAreNothing) {
 TEST(HardScenes, CamerasInsideOfThingsSeeTheirInside) {
   for (const glm::vec3& from :
        {glm::vec3(-1, 0, 0), glm::vec3(1, 0, 0), glm::vec3(0, 2.5f, 1), glm::vec3(0, -1, 0), glm::vec3(-2, 0, 0)}) {
-    auto scene = stage();
+    auto scene = hard_stage();
     scene.cameras = {camera_at(from, from + glm::vec3(0.1f, 0.2f, -1), 16, 16, 1)};
     expect_numbers("inside", scene);
   }
 }
 
 TEST(HardScenes, ThinFarAndHugeThingsEnd) {
-  auto scene = stage();
+  auto scene = hard_stage();
   scene.instances[0].world_from_object = placed({0, -1, 0}, 1e8f);
   scene.instances[1].world_from_object = placed({-1, 0, 0}, 1e-4f);
   scene.instances[2].world_from_object = glm::scale(glm::mat4(1), glm::vec3(1e-12f, 1, 1));
   expect_numbers("huge, small and flat", scene);
-  scene = stage();
+  scene = hard_stage();
   for (auto& instance : scene.instances) instance.world_from_object[3] += glm::vec4(1e6f, 1e6f, 0, 0);
   scene.cameras = {camera_at({1e6f, 1e6f, 5}, {1e6f, 1e6f, 0}, 16, 16, 1)};
   expect_numbers("1000 km away", scene);
@@ -121,7 +121,7 @@ TEST(HardScenes, WithNothingAtAllAreBlack) {
 }
 
 TEST(HardScenes, MirrorsThatFaceEachOtherEnd) {
-  auto scene = stage();
+  auto scene = hard_stage();
   brdf::Callisto<double> mirror;
   mirror.metallic = 1, mirror.roughness = 0, mirror.base_color = brdf::Rgb<double>(1.0);
   scene.materials = {material_of(mirror), material_of(mirror)};
@@ -141,20 +141,20 @@ void expect_same_if_forced(const char* what, const scene::Scene& scene) {
 }
 
 TEST(Force, OfAllEffectsLeavesThePictureAsItIs) {
-  auto scene = stage();
+  auto scene = hard_stage();
   expect_same_if_forced("light and sky", scene);
   scene.lights.clear();
   expect_same_if_forced("one color of sky", scene);
   scene.environment.reset();
   expect_same_if_forced("darkness", scene);
-  scene = stage();
+  scene = hard_stage();
   scene.environment.reset();
   expect_same_if_forced("one light", scene);
   scene.lights = {{"", scene::PointLight{{0, 2, 2}, {3, 3, 3}}}};
   expect_same_if_forced("a point", scene);
   scene.materials[1].emission = {1, 1, 1};
   expect_same_if_forced("emission", scene);
-  scene = stage();
+  scene = hard_stage();
   brdf::Callisto<double> metal;
   metal.metallic = 1;
   scene.materials[1] = material_of(metal);
@@ -166,7 +166,7 @@ TEST(Force, OfAllEffectsLeavesThePictureAsItIs) {
   skin.retroreflection = 5, skin.smooth_terminator = -0.4;
   scene.materials[1] = material_of(skin);
   expect_same_if_forced("some parts", scene);
-  scene = stage();
+  scene = hard_stage();
   scene.cameras[0].lens_radius = 0.1f, scene.cameras[0].focus_distance = 5;
   expect_same_if_forced("a lens", scene);
 }

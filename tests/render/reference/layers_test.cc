@@ -8,7 +8,7 @@ namespace likeness::reference {
 namespace {
 
 // A floor, a ball of all parts of Callisto, a glowing ball, two lights and a sky with a picture.
-scene::Scene stage() {
+scene::Scene layered_stage() {
   scene::Scene scene;
   scene.meshes = {square_mesh(), sphere_mesh(), box_mesh()};
   brdf::Callisto<double> callisto;
@@ -28,7 +28,7 @@ scene::Scene stage() {
 }
 
 TEST(Layers, OfLightAddUpToThePicture) {
-  const auto r = rendered(stage(), {.samples = 32, .has_layers = true});
+  const auto r = rendered(layered_stage(), {.samples = 32, .has_layers = true});
   const image::Layers layers = r.film.layers();
   const auto& emitted = layers.find("emitted")->data;
   const auto& direct = layers.find("direct")->data;
@@ -45,7 +45,7 @@ TEST(Layers, OfLightAddUpToThePicture) {
   }
   for (const double sum : sums) EXPECT_GT(sum, 1);  // none of them is idle
   // The layers do not change the picture.
-  EXPECT_EQ(r.picture.rgb, rendered(stage(), {.samples = 32}).picture.rgb);
+  EXPECT_EQ(r.picture.rgb, rendered(layered_stage(), {.samples = 32}).picture.rgb);
 }
 
 TEST(Layers, OfGeometryAreThoseOfTheFirstSurface) {

@@ -56,11 +56,11 @@ Settings with(Filter filter, DistantDiffuse diffuse = DistantDiffuse::kProxima, 
   return settings;
 }
 
-image::Picture frame_of(const scene::Scene& s, const Settings& settings, bool force_all = false) {
+image::Picture distant_frame(const scene::Scene& s, const Settings& settings, bool force_all = false) {
   const world::World world(s, plan::plan_of(s, 0, force_all));
   return Pipeline(world).frame(0, settings);
 }
-image::Picture reference_of(const scene::Scene& s, std::uint32_t samples = 256) {
+image::Picture distant_reference(const scene::Scene& s, std::uint32_t samples = 256) {
   const world::World world(s, plan::plan_of(s));
   reference::Options options;
   options.samples = samples, options.max_bounces = 1;
@@ -69,13 +69,13 @@ image::Picture reference_of(const scene::Scene& s, std::uint32_t samples = 256) 
   return film.picture();
 }
 
-double mean(const image::Picture& p) {
+double mean_light(const image::Picture& p) {
   double sum = 0;
   for (const float x : p.rgb) sum += static_cast<double>(x);
   return sum / static_cast<double>(p.rgb.size());
 }
 // Mean squared difference over the mean of the reference's square.
-double error(const image::Picture& frame, const image::Picture& reference) {
+double distant_error(const image::Picture& frame, const image::Picture& reference) {
   double squares = 0, whole = 0;
   for (std::size_t i = 0; i < frame.rgb.size(); ++i) {
     const double d = static_cast<double>(frame.rgb[i]) - static_cast<double>(reference.rgb[i]);
@@ -90,14 +90,14 @@ bool is_finite(const image::Picture& p) {
 TEST(Distance, AFrameOfLevelsIsNearerToTheReferenceThanOneOfFullSize) {
   for (const float roughness : {0.15f, 0.3f, 0.6f}) {
     const scene::Scene s = wall({.roughness = roughness, .is_metal = true}, {0.3f, 0.2f, 4});
-    const image::Picture reference = reference_of(s);
-    const double full = error(frame_of(s, with(Filter::kFull)), reference);
+    const image::Picture reference = distant_reference(s);
+    const double full = distant_error(distant_frame(s, with(Filter::kFull)), reference);
     for (const Filter filter : {Filter::kNearest, Filter::kTrilinear, Filter::kAnisotropic}) {
-      const image::Picture frame = frame_of(s, with(filter));
-      EXPECT_LT(error(frame, reference), 0.35 * full) << roughness << " " << static_cast<int>(filter);
+      const image::Picture frame = distant_frame(s, with(filter));
+      EXPECT_LT(distant_error(frame, reference), 0.35 * full) << roughness << " " << static_cast<int>(filter);
       // The slopes of these bumps are a sine's and not GGX's, which shows the more the smoother they are: 19 %, 14 % and
       // 6 % met. Without the length of their mean the highlight would be several times too bright (the next test).
-      EXPECT_NEAR(mean(frame) / mean(reference), 1, 0.22) << roughness;
+      EXPECT_NEAR(mean_light(frame) / mean_light(reference), 1, 0.22) << roughness;
     }
   }
 }
@@ -107,9 +107,9 @@ TEST(Distance, BumpsThatAreTooSmallToBeSeenWidenTheHighlight) {
   const scene::Scene s = wall({.roughness = 0.15f, .lean = 0.3f, .repeats = 32, .is_metal = true}, {0, 0, 4});
   scene::Scene smooth = s;
   smooth.materials[0].normal_map.reset();
-  const image::Picture reference = reference_of(s), frame = frame_of(s, with(Filter::kAnisotropic));
+  const image::Picture reference = distant_reference(s), frame = distant_frame(s, with(Filter::kAnisotropic));
   const auto brightest = [](const image::Picture& p) { return *std::max_element(p.rgb.begin(), p.rgb.end()); };
-  EXPECT_GT(brightest(frame_of(smooth, {})), 4 * brightest(reference));
+  EXPECT_GT(brightest(distant_frame(smooth, {})), 4 * brightest(reference));
   EXPECT_LT(brightest(frame), 1.5f * brightest(reference));
   EXPECT_GT(brightest(frame), 0.6f * brightest(reference));
 }
@@ -118,17 +118,17 @@ TEST(Distance, NearSurfacesAreUnchanged) {
   // A texel is many pixels wide.
   for (const bool is_metal : {false, true}) {
     const scene::Scene s = wall({.repeats = 0.1f, .is_metal = is_metal}, {0.3f, 0.2f, 2});
-    const image::Picture full = frame_of(s, with(Filter::kFull));
+    const image::Picture full = distant_frame(s, with(Filter::kFull));
     for (const Filter filter : {Filter::kNearest, Filter::kTrilinear, Filter::kAnisotropic})
-      EXPECT_EQ(frame_of(s, with(filter)).rgb, full.rgb) << static_cast<int>(filter);
+      EXPECT_EQ(distant_frame(s, with(filter)).rgb, full.rgb) << static_cast<int>(filter);
   }
 }
 
 TEST(Distance, MorePointsInAPixelMeanSmallerFootprints) {
   const scene::Scene s = wall({.roughness = 0.4f, .repeats = 2, .is_metal = true}, {0.3f, 0.2f, 4}, 64);
-  const image::Picture full = frame_of(s, with(Filter::kFull, {}, 64));
-  const double one = error(frame_of(s, with(Filter::kAnisotropic, {}, 1)), full);
-  const double many = error(frame_of(s, with(Filter::kAnisotropic, {}, 64)), full);
+  const image::Picture full = distant_frame(s, with(Filter::kFull, {}, 64));
+  const double one = distant_error(distant_frame(s, with(Filter::kAnisotropic, {}, 1)), full);
+  const double many = distant_error(distant_frame(s, with(Filter::kAnisotropic, {}, 64)), full);
   EXPECT_LT(many, 0.02 * one);
 }
 
@@ -139,9 +139,9 @@ TEST(Distance, ProximaIsNearerToBumpyDiffuseThanLambertIs) {
     scene::Scene s = wall({.lean = 0.6f, .repeats = 32}, {0, 0, 4});
     std::get<brdf::Callisto<double>>(s.materials[0].brdf).specular = 0;
     std::get<scene::PointLight>(s.lights[0].shape).position = {-4, 0, height};
-    const image::Picture reference = reference_of(s);
-    lambert += error(frame_of(s, with(Filter::kAnisotropic, DistantDiffuse::kLambert)), reference);
-    proxima += error(frame_of(s, with(Filter::kAnisotropic, DistantDiffuse::kProxima)), reference);
+    const image::Picture reference = distant_reference(s);
+    lambert += distant_error(distant_frame(s, with(Filter::kAnisotropic, DistantDiffuse::kLambert)), reference);
+    proxima += distant_error(distant_frame(s, with(Filter::kAnisotropic, DistantDiffuse::kProxima)), reference);
   }
   EXPECT_LT(proxima, 0.4 * lambert) << lambert;
 }
@@ -162,10 +162,10 @@ TEST(Distance, AtAGrazingViewPlacesAlongTheFootprintKeepWhatLevelsWashOut) {
   test::add_quad(s, material, {-1, 0, -8}, {1, 0, -8}, {1, 0, 1}, {-1, 0, 1});
   s.cameras.push_back(test::camera_at({0, 0.25f, 1.5f}, {0, 0, -1.5f}, 30, 64, 32));
   test::add_light(s, scene::DirectionalLight{{0, -1, 0}, {3, 3, 3}});
-  const image::Picture reference = reference_of(s);
-  const double trilinear = error(frame_of(s, with(Filter::kTrilinear)), reference);
-  const double anisotropic = error(frame_of(s, with(Filter::kAnisotropic)), reference);
-  const double full = error(frame_of(s, with(Filter::kFull)), reference);
+  const image::Picture reference = distant_reference(s);
+  const double trilinear = distant_error(distant_frame(s, with(Filter::kTrilinear)), reference);
+  const double anisotropic = distant_error(distant_frame(s, with(Filter::kAnisotropic)), reference);
+  const double full = distant_error(distant_frame(s, with(Filter::kFull)), reference);
   EXPECT_LT(anisotropic, 0.5 * trilinear);
   EXPECT_LT(anisotropic, 0.5 * full);
 }
@@ -179,7 +179,7 @@ TEST(Distance, SparklesLessWhenTheCameraMovesByPartsOfAPixel) {
       scene::Scene s = wall({.roughness = 0.15f, .repeats = 16, .is_metal = true}, {0.3f, 0.2f, 4});
       s.cameras[0].center_x += i / static_cast<double>(kSteps);
       s.cameras[0].center_y += 0.37 * i / kSteps;
-      const image::Picture frame = frame_of(s, with(filter));
+      const image::Picture frame = distant_frame(s, with(filter));
       sums.resize(frame.rgb.size()), squares.resize(frame.rgb.size());
       for (std::size_t k = 0; k < frame.rgb.size(); ++k) {
         sums[k] += static_cast<double>(frame.rgb[k]);
@@ -205,9 +205,9 @@ TEST(Distance, IsTheSameForMirroredTexturesAndFromBehind) {
       for (glm::vec2& uv : s.meshes[0].uvs) uv.x = -uv.x;
     if (what == 1) std::get<scene::PointLight>(s.lights[0].shape).position.z *= -1;
     if (what == 2) s.instances[0].world_from_object[0] *= -1.0f;
-    const image::Picture reference = reference_of(s);
-    EXPECT_LT(error(frame_of(s, with(Filter::kAnisotropic)), reference),
-              0.35 * error(frame_of(s, with(Filter::kFull)), reference))
+    const image::Picture reference = distant_reference(s);
+    EXPECT_LT(distant_error(distant_frame(s, with(Filter::kAnisotropic)), reference),
+              0.35 * distant_error(distant_frame(s, with(Filter::kFull)), reference))
         << what;
   }
 }
@@ -218,9 +218,9 @@ TEST(Distance, OfASphereAndOfDualNormals) {
   s.materials[0].normal_map->uv_scale = {16, 8};
   for (const bool is_dual : {false, true}) {
     if (is_dual) s.materials[0].diffuse_normal_map = s.materials[0].normal_map;
-    const image::Picture reference = reference_of(s);
-    EXPECT_LT(error(frame_of(s, with(Filter::kAnisotropic)), reference),
-              0.35 * error(frame_of(s, with(Filter::kFull)), reference))
+    const image::Picture reference = distant_reference(s);
+    EXPECT_LT(distant_error(distant_frame(s, with(Filter::kAnisotropic)), reference),
+              0.35 * distant_error(distant_frame(s, with(Filter::kFull)), reference))
         << is_dual;
   }
 }
@@ -229,7 +229,7 @@ TEST(Distance, StaysFiniteWhereFootprintsDoNot) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   const auto expect_sound = [](const scene::Scene& s, const char* what) {
     for (const Filter filter : {Filter::kFull, Filter::kNearest, Filter::kTrilinear, Filter::kAnisotropic})
-      EXPECT_TRUE(is_finite(frame_of(s, with(filter)))) << what << " " << static_cast<int>(filter);
+      EXPECT_TRUE(is_finite(distant_frame(s, with(filter)))) << what << " " << static_cast<int>(filter);
   };
   scene::Scene s = wall({}, {0, 4, 1e-6f});  // along the wall
   expect_sound(s, "grazing");
@@ -262,9 +262,9 @@ TEST(Distance, OfOneTexelIsNothing) {
   scene::Scene s = wall({}, {0.3f, 0.2f, 4});
   s.images[0] = {"one", {1, 1, 3, {}, {0.6f, 0.45f, 0.9f}}};
   EXPECT_FALSE(plan::plan_of(s).has(plan::Effect::kTextureLevels));
-  const image::Picture full = frame_of(s, with(Filter::kFull));
-  EXPECT_EQ(frame_of(s, with(Filter::kAnisotropic)).rgb, full.rgb);
-  const image::Picture forced = frame_of(s, with(Filter::kAnisotropic), true);
+  const image::Picture full = distant_frame(s, with(Filter::kFull));
+  EXPECT_EQ(distant_frame(s, with(Filter::kAnisotropic)).rgb, full.rgb);
+  const image::Picture forced = distant_frame(s, with(Filter::kAnisotropic), true);
   for (std::size_t i = 0; i < full.rgb.size(); ++i) ASSERT_NEAR(forced.rgb[i], full.rgb[i], 1e-6f * (1 + full.rgb[i]));
 }
 
@@ -279,10 +279,10 @@ TEST(Distance, OfEmissionIsItsMean) {
   s.materials[0].emission = {2, 2, 2};
   s.materials[0].emission_map = scene::Texture{0};
   s.materials[0].emission_map->uv_scale = glm::vec2(16);
-  const image::Picture frame = frame_of(s, with(Filter::kAnisotropic));
+  const image::Picture frame = distant_frame(s, with(Filter::kAnisotropic));
   // What it sends itself, and what it receives from itself: nothing, as it is flat.
   for (const float x : frame.rgb) ASSERT_NEAR(x, 1, 1e-4f);
-  for (const float x : frame_of(s, with(Filter::kFull)).rgb) ASSERT_TRUE(x >= 0 && x <= 2);
+  for (const float x : distant_frame(s, with(Filter::kFull)).rgb) ASSERT_TRUE(x >= 0 && x <= 2);
 }
 
 TEST(Distance, WhatANormalMapAndARoughnessLoseAddsUp) {

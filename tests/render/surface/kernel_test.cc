@@ -13,7 +13,7 @@ namespace {
 
 using C = brdf::Callisto<double>;
 
-struct Random {
+struct KernelDraws {
   std::uint32_t state = 1;
   float next() { return sampling::unit(state = sampling::mixed(state + 0x9e3779b9u)); }
   // Above the horizon; some of them grazing.
@@ -54,7 +54,7 @@ void expect_kernel(const std::string& what, const brdf::AnyBrdf& any, double tol
   const Ready ready(material_of(any));
   const Kernel& k = (*ready).kernel;
   const Bound bound = ready.bound();
-  Random random;
+  KernelDraws random;
   double worst = 0, worst_weight = 0, worst_lobes = 0;
   std::visit(
       [&](const auto& model) {
@@ -132,7 +132,7 @@ TEST(Kernel, OfEverySetOfPartsIsCallisto) {
     EXPECT_EQ((*forced).callisto_parts, static_cast<unsigned>(C::kAllParts));
     expect_kernel("parts " + std::to_string(parts), model);
     // The kernel that has every part says the same of it.
-    Random random;
+    KernelDraws random;
     for (int i = 0; i < 300; ++i) {
       const glm::vec3 l = random.direction(), v = random.direction();
       const Value a = (*ready).kernel.eval(ready.bound(), l, v), b = (*forced).kernel.eval(forced.bound(), l, v);
@@ -152,7 +152,7 @@ TEST(Kernel, LobesOfCallistoAreItsDiffuseAndItsSpecular) {
   black.base_color = brdf::Rgb<double>(0.0);
   black.metallic = model.metallic = 0;
   const Ready ready(material_of(model));
-  Random random;
+  KernelDraws random;
   for (int i = 0; i < 1000; ++i) {
     const glm::vec3 l = random.direction(), v = random.direction();
     const Lobes lobes = (*ready).kernel.lobes(ready.bound(), l, v);
@@ -171,7 +171,7 @@ TEST(DualNormals, ThatAreEqualAreOne) {
     material.normal_map = material.diffuse_normal_map = scene::Texture{0};
     const Ready two(material);
     ASSERT_TRUE((*two).has_dual_normals());
-    Random random;
+    KernelDraws random;
     for (int i = 0; i < 2000; ++i) {
       const glm::vec3 l = random.direction(), v = random.direction();
       const Value a = (*one).kernel.eval(one.bound(), l, v), b = (*two).kernel.eval(two.bound(), l, v);
@@ -194,7 +194,7 @@ TEST(DualNormals, AreSampledByTheDensityTheyState) {
   material.normal_map = material.diffuse_normal_map = scene::Texture{0};
   const Ready ready(material);
   const Kernel& k = (*ready).kernel;
-  Random random;
+  KernelDraws random;
   for (const glm::vec3& view :
        {glm::vec3(0, 0, 1), glm::normalize(glm::vec3(1, 0.3f, 0.2f)), glm::normalize(glm::vec3(-1, 0, 0.02f))})
     for (const float tilt : {0.0f, 0.3f, 0.8f}) {

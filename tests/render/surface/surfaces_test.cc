@@ -11,9 +11,9 @@ namespace likeness::surface {
 namespace {
 
 // One instance, and the point that a ray meets.
-struct Stage {
+struct Bench {
   scene::Scene scene;
-  Stage() {
+  Bench() {
     scene.meshes.resize(1);
     scene.materials.resize(1);
     scene.instances = {{"", 0, 0, glm::mat4(1)}};
@@ -48,7 +48,7 @@ void expect_near(const glm::vec3& a, const glm::vec3& b, float tolerance = 1e-5f
 }
 
 TEST(Surfaces, KnowWhereAPointIsAndWhichWayItFaces) {
-  Stage s;
+  Bench s;
   s.square();
   for (const float side : {1.0f, -1.0f})
     s.look<Detail::kNone>({0.5f, 0.25f, 2 * side}, {0, 0, -side}, [&](const Point& p, const Surfaces&) {
@@ -67,7 +67,7 @@ TEST(Surfaces, KnowWhereAPointIsAndWhichWayItFaces) {
 }
 
 TEST(Surfaces, FaceAsTheirNormalsDoAndMirroredOnesToo) {
-  Stage s;
+  Bench s;
   s.square();
   s.scene.materials[0].two_sided = false;
   const auto is_back = [&](float side) {
@@ -91,7 +91,7 @@ TEST(Surfaces, FaceAsTheirNormalsDoAndMirroredOnesToo) {
 }
 
 TEST(Surfaces, NormalsAreStraightUnderStretchedInstances) {
-  Stage s;
+  Bench s;
   s.square();
   const glm::vec3 n = glm::normalize(glm::vec3(0.5f, 0, 1));
   s.scene.meshes[0].normals.assign(4, n);
@@ -107,7 +107,7 @@ TEST(Surfaces, NormalsAreStraightUnderStretchedInstances) {
 }
 
 TEST(Surfaces, ShadingNormalsFaceTheViewer) {
-  Stage s;
+  Bench s;
   s.square();
   for (const glm::vec3& n :
        {glm::vec3(0.999f, 0, 0.04f), glm::vec3(1, 0, 1e-3f), glm::vec3(-1, 0, 0.2f), glm::vec3(0, 1, 0.1f)}) {
@@ -125,7 +125,7 @@ TEST(Surfaces, ShadingNormalsFaceTheViewer) {
 }
 
 TEST(Surfaces, SpheresHaveLongitudeAndLatitude) {
-  Stage s;
+  Bench s;
   s.scene.meshes[0].is_sphere = true;
   s.scene.instances[0].world_from_object = glm::scale(glm::translate(glm::mat4(1), {1, 2, 3}), glm::vec3(2));
   const auto uv = [&](const glm::vec3& n) {
@@ -160,7 +160,7 @@ TEST(NormalMaps, BendTheSameWayInFrontAndBehind) {
   for (const int kind : {0, 1, 2})  // with tangents, without, a sphere
     for (const bool is_mirrored : {false, true}) {
       SCOPED_TRACE(std::to_string(kind) + (is_mirrored ? " mirrored" : ""));
-      Stage s;
+      Bench s;
       if (kind == 2) s.scene.meshes[0].is_sphere = true;
       else s.square();
       if (kind == 0) s.scene.meshes[0].tangents.assign(4, {1, 0, 0, 1}), s.scene.meshes[0].normals.assign(4, {0, 0, 1});
@@ -181,7 +181,7 @@ TEST(NormalMaps, BendTheSameWayInFrontAndBehind) {
 }
 
 TEST(NormalMaps, TakeTheirStrengthAndTheSideOfTheTangents) {
-  Stage s;
+  Bench s;
   s.square();
   s.scene.meshes[0].normals.assign(4, {0, 0, 1});
   s.scene.meshes[0].tangents.assign(4, {0, 1, 0, -1});
@@ -197,7 +197,7 @@ TEST(NormalMaps, TakeTheirStrengthAndTheSideOfTheTangents) {
 }
 
 TEST(NormalMaps, OfDualNormalsAreInTheFrameOfTheSurface) {
-  Stage s;
+  Bench s;
   s.square();
   s.scene.meshes[0].normals.assign(4, {0, 0, 1});
   s.scene.meshes[0].tangents.assign(4, {1, 0, 0, 1});
@@ -213,7 +213,7 @@ TEST(NormalMaps, OfDualNormalsAreInTheFrameOfTheSurface) {
 }
 
 TEST(Emission, IsThatOfTheMaterialTimesItsMap) {
-  Stage s;
+  Bench s;
   s.square();
   s.scene.materials[0].emission = {2, 4, 8};
   s.look({0, 0, 3}, {0, 0, -1},
@@ -228,7 +228,7 @@ TEST(Emission, IsThatOfTheMaterialTimesItsMap) {
 }
 
 TEST(Point, NothingIsLitFromBehindItsTriangle) {
-  Stage s;
+  Bench s;
   s.square();
   s.scene.meshes[0].normals.assign(4, glm::normalize(glm::vec3(1, 0, 1)));
   s.look({0, 0, 3}, {0, 0, -1}, [](const Point& p, const Surfaces&) {
