@@ -5,45 +5,46 @@
 #include <cstddef>
 #include <vector>
 
-#include "brdf/lighting/zone.h"
 #include "render/capture/pixels.h"
+#include "render/exposure/pick.h"
 
 namespace likeness::olat_pair {
 namespace {
 
-constexpr double kShare = 0.99, kWhite = 1, kMostStops = 30;
+constexpr double kShare = 0.99, kMostStops = 30;
 
 double tenths(double stops) {
   const double rounded = std::floor(10 * std::clamp(stops, -kMostStops, kMostStops) + 0.5) / 10;
   return rounded == 0 ? 0 : rounded;  // never -0
 }
 
-// Luminances above a bound.
-std::vector<double> lit(const image::Picture& photo, std::span<const std::uint8_t> flaws, double above) {
+// 1 for pixels that count. An infinite one does not, whether it was marked or not: it would be the brightest.
+std::vector<float> weights_of(const image::Picture& photo, std::span<const std::uint8_t> flaws) {
   constexpr unsigned kUnusable = capture::kMasked | capture::kNotFinite;
-  std::vector<double> out;
-  for (std::size_t i = 0; 3 * i + 2 < photo.rgb.size(); ++i) {
-    if (i < flaws.size() && (flaws[i] & kUnusable) != 0) continue;
+  std::vector<float> out(photo.rgb.size() / 3, 1);
+  for (std::size_t i = 0; i < out.size(); ++i) {
     const float* const rgb = photo.rgb.data() + 3 * i;
-    const double y = 0.2126 * static_cast<double>(rgb[0]) + 0.7152 * static_cast<double>(rgb[1]) +
-                     0.0722 * static_cast<double>(rgb[2]);
-    if (std::isfinite(y) && y > above) out.push_back(y);
+    if ((i < flaws.size() && (flaws[i] & kUnusable) != 0)) out[i] = 0;
+    else if (!std::isfinite(rgb[0]) || !std::isfinite(rgb[1]) || !std::isfinite(rgb[2])) out[i] = 0;
   }
   return out;
+}
+
+exposure::Distribution light_above(const image::Picture& photo, std::span<const float> weights, double floor) {
+  exposure::Histogram histogram;
+  histogram.add(photo, weights, static_cast<float>(floor));
+  return exposure::Distribution(histogram.luminance());
 }
 
 }  // namespace
 
 std::optional<Exposures> exposures_of(const image::Picture& photo, std::span<const std::uint8_t> flaws, double noise) {
-  std::vector<double> light = lit(photo, flaws, noise);
-  if (light.empty()) light = lit(photo, flaws, 0);
-  if (light.empty()) return std::nullopt;
-  double sum = 0;
-  for (const double y : light) sum += std::log2(y);
-  const auto rank = static_cast<std::ptrdiff_t>(std::ceil(kShare * static_cast<double>(light.size()))) - 1;
-  std::nth_element(light.begin(), light.begin() + rank, light.end());
-  return Exposures{tenths(std::log2(kWhite / light[static_cast<std::size_t>(rank)])),
-                   tenths(std::log2(brdf::Zones::kMiddleGrey) - sum / static_cast<double>(light.size()))};
+  const std::vector<float> weights = weights_of(photo, flaws);
+  exposure::Distribution light = light_above(photo, weights, noise);
+  if (light.is_empty()) light = light_above(photo, weights, 0);
+  if (light.is_empty()) return std::nullopt;
+  return Exposures{tenths(exposure::ev_for(light.percentile(kShare), exposure::white_zone())),
+                   tenths(std::log2(brdf::Zones::kMiddleGrey) - light.mean_log2())};
 }
 
 }  // namespace likeness::olat_pair

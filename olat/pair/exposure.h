@@ -27,7 +27,8 @@ inline constexpr std::array kExposures{
 
 // Of linear Rec. 709 and its pixels' bits of capture::Flaw (or none), to a tenth of a stop, within [-30, 30]. Pixels count
 // that are finite, not masked, and brighter than the noise floor, so that a black background does not; where none is, all
-// above 0. Nothing where there are none of these either. The percentile is the value that nearest rank names.
+// above 0. Nothing where there are none of these either. Read from the histogram that `likeness expose` reads
+// (render/exposure/histogram.h), so both name the same exposures.
 std::optional<Exposures> exposures_of(const image::Picture& photo, std::span<const std::uint8_t> flaws, double noise);
 
 }  // namespace likeness::olat_pair

@@ -16,8 +16,8 @@
 #include "render/exposure/histogram.h"
 #include "render/exposure/pick.h"
 #include "render/files/files.h"
-#include "render/image/exr_exposure.h"
 #include "render/image/read.h"
+#include "render/photograph/tiff_tags.h"
 #include "render/plan/plan.h"
 #include "render/runtime/pipeline.h"
 #include "render/scene/read_scene.h"
@@ -60,7 +60,7 @@ Shot read_image(const fs::path& file, const Request& request, float floor) {
   out.floor = floor;
   {
     const std::string bytes = files::read_whole(file, image::kMostFileBytes);
-    const image::ExrExposure taken = image::exposure_of_exr(bytes, file.string());
+    const photograph::Taken taken = photograph::taken_of(bytes, file.string());
     out.taken = {taken.f_number, taken.exposure_s, taken.iso};
     out.light = image::picture_of(image::decode_texels(bytes, file.string(), {.layer = request.layer}));
   }

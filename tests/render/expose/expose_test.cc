@@ -9,6 +9,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "render/files/files.h"
 #include "render/image/read.h"
 #include "render/image/tone_curve.h"
 #include "render/image/write.h"
@@ -168,6 +169,35 @@ TEST_F(Expose, SaysEv100WhereTheCameraIsKnown) {
   EXPECT_NEAR(all.at("ev100").at("taken").get<double>(), 14.966, 1e-3);
   EXPECT_NEAR(all.at("ev100").at("picked").get<double>(), 13.966, 1e-3) << "a stop more light";
   EXPECT_TRUE(json({"a.exr", "--aperture", "16"}).at("ev100").at("taken").is_null());
+}
+
+// A JPEG whose EXIF has two of the facts in its own directory and one in the first, as some cameras write them.
+std::string photo_with_exif(const image::DisplayPicture& picture) {
+  const auto number = [](std::uint32_t value, int bytes) {
+    std::string out;
+    for (int i = 0; i < bytes; ++i) out.push_back(static_cast<char>(value >> (8 * i)));
+    return out;
+  };
+  const auto row = [&](std::uint32_t tag, std::uint32_t type, std::uint32_t value) {
+    return number(tag, 2) + number(type, 2) + number(1, 4) + number(value, 4);
+  };
+  constexpr std::uint32_t kShort = 3, kLong = 4, kRational = 5;
+  // Header 8, first directory 2 + 2 x 12 + 4, EXIF's the same: rationals at 68 and 76.
+  std::string tiff = "II" + number(42, 2) + number(8, 4);
+  tiff += number(2, 2) + row(34665, kLong, 38) + row(34855, kShort, 100) + number(0, 4);
+  tiff += number(2, 2) + row(33434, kRational, 68) + row(33437, kRational, 76) + number(0, 4);
+  tiff += number(1, 4) + number(125, 4) + number(160, 4) + number(10, 4);
+  const std::string content = std::string("Exif\0\0", 6) + tiff;
+  const std::string length{static_cast<char>((content.size() + 2) >> 8), static_cast<char>(content.size() + 2)};
+  std::string jpeg = image::jpeg_bytes(picture, 90, image::JpegColors::kYcc);
+  return jpeg.insert(2, "\xff\xe1" + length + content);
+}
+
+TEST_F(Expose, SaysEv100OfAJpegByItsExif) {
+  files::write_whole(shop / "a.jpg", photo_with_exif(image::display(flat(8, 8, 0.09f))));
+  EXPECT_NEAR(json({"a.jpg"}).at("ev100").at("taken").get<double>(), 14.966, 1e-3);
+  EXPECT_NEAR(json({"a.jpg", "--iso", "200"}).at("ev100").at("taken").get<double>(), 13.966, 1e-3)
+      << "by hand goes first";
 }
 
 TEST_F(Expose, ShowsWhyOnAPage) {
