@@ -127,6 +127,8 @@ TEST_F(Bracketed, ResponseAndLightAreRecovered) {
   EXPECT_EQ(warnings_of(merged), "");
   EXPECT_EQ(merged.ghosts, 0u);
   for (const double error : merged.judgement.errors) EXPECT_LT(std::abs(error), 0.05);
+  for (const FrameReport& report : merged.reports)
+    EXPECT_LE(report.well_exposed, merged.reports[merged.reference].well_exposed);
 }
 
 TEST_F(Bracketed, AStatedResponseIsReadBackAsItWasWrittenAndGivesTheSameLight) {
@@ -161,6 +163,75 @@ TEST_F(Bracketed, AShiftedFrameIsFoundAndPutBack) {
   options.aligns = true;
   const Merged aligned = merge(options);
   EXPECT_LT(aligned.ghosts, loose.ghosts / 5 + 10);
+}
+
+TEST_F(Bracketed, FramesAreMovedToTheReferenceWhichStays) {
+  std::vector<Taking> takings = nine();
+  for (std::size_t k = 2; k < takings.size(); ++k) takings[k].dx = 3, takings[k].dy = -2;
+  MergeOptions options = options_of(takings);
+  options.aligns = true;
+  const Merged merged = merge(options);
+  ASSERT_GE(merged.reference, 2u) << "or what follows says nothing";
+  EXPECT_EQ(merged.reports[merged.reference].moved_x, 0);
+  EXPECT_EQ(merged.reports[merged.reference].moved_y, 0);
+  EXPECT_NEAR(merged.reports[1].moved_x, -3, 0.1);
+  EXPECT_NEAR(merged.reports[1].moved_y, 2, 0.1);
+}
+
+// Frames of light without noise, 40 x 40, whose sums can be done by hand.
+class BracketedLight : public testing::Test {
+ protected:
+  static constexpr int kSide = 40;
+  // `change` gets each frame before it is written.
+  template <class F>
+  Merged merged(const std::vector<double>& seconds, const std::array<float, 3>& light, const F& change) {
+    MergeOptions options;
+    for (std::size_t k = 0; k < seconds.size(); ++k) {
+      image::Picture frame(kSide, kSide);
+      for (std::size_t i = 0; i < frame.rgb.size(); ++i) frame.rgb[i] = light[i % 3] * static_cast<float>(seconds[k]);
+      change(frame, k);
+      const fs::path file = folder_ / (std::to_string(k) + ".exr");
+      image::write_exr(file, frame);
+      options.brackets.push_back({file, {seconds[k], {}, {}, 0, 0}});
+    }
+    return merge(options);
+  }
+
+ private:
+  test::TemporaryFolder folder_;
+};
+
+TEST_F(BracketedLight, IsWeighedByHatAndExposureAndConfidenceIsThatOfTheWorstChannel) {
+  // 1 s shows 0.1 and 0.01; 4 s shows 0.41 and 0.04, a fortieth more than it should: which frame counts how much shows.
+  const Merged out = merged({1, 4}, {0.1f, 0.1f, 0.01f}, [](image::Picture& frame, std::size_t k) {
+    for (std::size_t i = 0; k == 1 && i < frame.rgb.size(); ++i)
+      if (i % 3 != 2) frame.rgb[i] = 0.41f;
+  });
+  const double want = (0.2 * 1 * 0.1 + 0.82 * 4 * 0.1025) / (0.2 * 1 + 0.82 * 4);
+  EXPECT_NEAR(out.light.rgb[0], want, 1e-6);
+  EXPECT_NEAR(out.confidence[0], 0.08, 1e-6) << "the hat of blue's 0.04";
+}
+
+TEST_F(BracketedLight, IsClippedFromCodeOneOn) {
+  const Merged out = merged({1, 4}, {0.1f, 0.1f, 0.1f}, [](image::Picture& frame, std::size_t k) {
+    for (std::size_t i = 0; i < frame.rgb.size() / 4; ++i) frame.rgb[i] = k == 0 ? 0.6f : 2.4f;
+  });
+  EXPECT_EQ(out.reports[0].clipped, 0);
+  EXPECT_EQ(out.reports[1].clipped, 0.25);
+}
+
+TEST_F(BracketedLight, OfALonePixelThatMovedIsNoiseAndOfASquareAGhost) {
+  const Merged out = merged({1, 2, 4}, {0.15f, 0.15f, 0.15f}, [](image::Picture& frame, std::size_t k) {
+    if (k != 1) return;
+    for (std::size_t c = 0; c < 3; ++c) {
+      frame.at(10, 10)[c] *= 2;
+      for (int y = 20; y < 23; ++y)
+        for (int x = 20; x < 23; ++x) frame.at(x, y)[c] *= 2;
+    }
+  });
+  EXPECT_EQ(out.ghost[10 * kSide + 10], 0);
+  EXPECT_NE(out.ghost[21 * kSide + 21], 0);
+  EXPECT_EQ(out.ghosts, 21u) << "what is around the middles of the square's sides, and its own middle";
 }
 
 TEST_F(Bracketed, AGhostIsMarkedAndTakenFromTheReference) {
