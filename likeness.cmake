@@ -2,7 +2,7 @@
 #
 #   likeness_library(measured SOURCES merl.cc read.cc [COMMANDS command.cc] NEEDS likeness::brdf likeness::files
 #                    [WITH Ceres::ceres] [FOLDERS of further headers])
-#   likeness_test(measured_test SOURCES merl_test.cc NEEDS likeness::measured [WITH TBB::tbb] [TIMEOUT 120])
+#   likeness_test(measured_test [COMPUTES 1] SOURCES merl_test.cc NEEDS likeness::measured [WITH TBB::tbb] [TIMEOUT 120])
 #
 # NEEDS names rooms, which is the order of the house (tests/house/layout_test reads it from these lines); WITH names
 # packages. A room without SOURCES is header only, and its packages reach whoever uses it; otherwise they stay
@@ -48,6 +48,11 @@ set(LIKENESS_COMMON_HEADERS <algorithm> <array> <cmath> <cstdint> <cstdio> <file
     <limits> <map> <memory> <numbers> <numeric> <optional> <random> <set> <span> <sstream> <stdexcept> <string>
     <string_view> <tuple> <utility> <variant> <vector> <glm/geometric.hpp> <glm/mat3x3.hpp> <glm/mat4x4.hpp>
     <glm/vec2.hpp> <glm/vec3.hpp>)
+# Kinds, and how they are optimised: a room as the build type says (-O3), what runs once a process, tests.
+set(LIKENESS_LEVEL_OF_room)
+set(LIKENESS_LEVEL_OF_once -O1)
+set(LIKENESS_LEVEL_OF_test -O0)
+set(LIKENESS_LEVEL_OF_test_that_computes -O1)
 function(likeness_parse_once target kind)
   if(NOT LIKENESS_PARSE_ONCE)
     return()
@@ -62,12 +67,14 @@ function(likeness_parse_once target kind)
     file(CONFIGURE OUTPUT ${source} CONTENT "")
     add_library(${owner} OBJECT ${source})
     target_compile_features(${owner} PRIVATE cxx_std_20)
-    target_compile_options(${owner} PRIVATE $<$<NOT:$<STREQUAL:${kind},room>>:-O1> ${LIKENESS_WARNINGS})
+    target_compile_options(${owner} PRIVATE ${LIKENESS_LEVEL_OF_${kind}} ${LIKENESS_WARNINGS})
     target_precompile_headers(${owner} PRIVATE ${LIKENESS_COMMON_HEADERS})
-    if(kind STREQUAL "test")
+    if(kind MATCHES "^test")
       target_link_libraries(${owner} PRIVATE GTest::gtest)
       target_precompile_headers(${owner} PRIVATE <gmock/gmock.h> <gtest/gtest.h>)
       set_target_properties(${owner} PROPERTIES POSITION_INDEPENDENT_CODE OFF)
+    else()
+      target_precompile_headers(${owner} PRIVATE <nlohmann/json.hpp>)
     endif()
   endif()
   target_precompile_headers(${target} REUSE_FROM ${owner})
@@ -95,7 +102,7 @@ function(likeness_library name)
     list(FILTER arg_SOURCES EXCLUDE REGEX ${words})
     if(once)
       add_library(${target}_once OBJECT ${once})
-      target_compile_options(${target}_once PRIVATE $<$<CONFIG:Release>:-O1>)
+      target_compile_options(${target}_once PRIVATE $<$<CONFIG:Release>:${LIKENESS_LEVEL_OF_once}>)
       target_compile_definitions(${target}_once PRIVATE $<TARGET_PROPERTY:${target},COMPILE_DEFINITIONS>)
       target_include_directories(${target}_once PRIVATE ${PROJECT_SOURCE_DIR})
       likeness_parse_once(${target}_once once)
@@ -191,18 +198,23 @@ endfunction()
 #
 # Headers are half of the time that tests take to compile, so ./bootstrap compiles the sources of a program together
 # (CMAKE_UNITY_BUILD of the preset release). APART says that they use the same names for different things, and are not.
-# What is tested is in the rooms, so tests have -O1: a third less time. FAST says that theirs is in headers, and long.
+# What is tested is in the rooms, which are optimised; to optimise tests too takes longer than they run. COMPUTES 1
+# says that this one computes so much itself, or evaluates headers so often, that -O1 pays, COMPUTES 2 that -O2 does.
 function(likeness_test name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "APART;FAST" "TIMEOUT" "SOURCES;NEEDS;WITH")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "APART" "TIMEOUT;COMPUTES" "SOURCES;NEEDS;WITH")
   if(NOT arg_TIMEOUT)
     set(arg_TIMEOUT 120)
   endif()
   add_executable(${name} ${arg_SOURCES})
-  if(arg_FAST)
+  if(arg_COMPUTES EQUAL 2)
     target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O2>)
   else()
-    target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)
-    likeness_parse_once(${name} test)
+    set(kind test)
+    if(arg_COMPUTES)
+      set(kind test_that_computes)
+    endif()
+    target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:${LIKENESS_LEVEL_OF_${kind}}>)
+    likeness_parse_once(${name} ${kind})
     set_target_properties(${name} PROPERTIES POSITION_INDEPENDENT_CODE OFF)
   endif()
   if(arg_APART)

@@ -72,6 +72,7 @@ export class Region {
     width = within(width, 1, size.width);
     height = within(height, 1, size.height);
     this.rect = { x: within(x, 0, size.width - width), y: within(y, 0, size.height - height), width, height };
+    this.found = null;  // it was of another rectangle; the next frame measures
     this.untold = true;
     this.app.redraw();
   }

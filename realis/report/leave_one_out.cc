@@ -243,15 +243,13 @@ class Worker {
     });
     row.ns = ns_of(numbers);
     if (kind.terms == 0) return;
-    const auto begin = Clock::now();
     const auto terms = static_cast<Eigen::Index>(kind.terms), count = static_cast<Eigen::Index>(lights());
     const Eigen::MatrixXf inverse = Eigen::MatrixXf::Constant(terms, count, 0.5f);
     const Eigen::MatrixXf photos =
         Eigen::MatrixXf::Constant(count, static_cast<Eigen::Index>(subject().texels() * (is_lrgb ? 1 : 3)), 0.25f);
-    const auto product_begin = Clock::now();
+    const auto begin = Clock::now();
     const Eigen::MatrixXf found = inverse * photos;
-    static_cast<void>(begin);
-    row.bake_seconds = (found(0, 0) > 0 ? seconds_since(product_begin) : 0) * of_all();
+    row.bake_seconds = (found(0, 0) > 0 ? seconds_since(begin) : 0) * of_all();
   }
 
   double of_all() const { return static_cast<double>(study_.texels_of_all) / static_cast<double>(subject().texels()); }
@@ -293,6 +291,12 @@ class Worker {
            (plan.bits == baked::Bits::kFour ? ", 4 bit" : "");
   }
 
+  static std::string words_of(const Plan& plan) {
+    return (plan.is_mixed ? "--mixes " : "--lobes ") + std::to_string(plan.count) +
+           (plan.dominant > 0 ? " --dominant " + std::to_string(plan.dominant) : "") +
+           (plan.bits == baked::Bits::kFour ? " --bits 4" : "") + (plan.channels == Channels::kRgb ? " --rgb" : "");
+  }
+
   void add_realis(const Plan& plan) {
     const std::string name = name_of(plan);
     ask(0, name);
@@ -316,6 +320,7 @@ class Worker {
     });
     row.exact = errors_of(exact, subject(), study_.peak, study_.noise);
     row.bytes = stored + kRenderBytes;
+    row.bake_words = words_of(plan);
     row.ns = ns_of(numbers);
     row.bake_seconds =
         (plan.is_mixed ? choosing_mixes_ : choosing_[plan.count]) + spent / static_cast<double>(lights()) * of_all();

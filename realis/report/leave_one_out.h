@@ -37,6 +37,7 @@ struct Errors {
 struct Row {
   std::string name;
   Family family = Family::kRender;
+  std::string bake_words;       // of Realis: the words of `likeness realis bake CAPTURE` that bake all lights so
   std::size_t bytes = 0;        // of a texel; for a render 3 of color and 2 of normal are among them
   Errors errors;                // as stored: 8 bit coefficients of Realis; floats of baselines, which favours those
   std::optional<Errors> exact;  // of Realis: with coefficients that are not rounded

@@ -188,6 +188,7 @@ std::string json_of(const Study& s) {
            {"bake_seconds", row.bake_seconds},
            {"ns", row.ns}};
     if (row.exact) r["exact"] = errors(*row.exact);
+    if (!row.bake_words.empty()) r["bake_words"] = row.bake_words;
     for (std::size_t i = 0; i < row.by_light.size(); ++i) r["by_light"][s.light_ids[i]] = errors(row.by_light[i]);
     if (row.family == Family::kBaseline) {
       const Row* winner = winner_over(s, row);
@@ -233,7 +234,8 @@ std::string page_of(const Study& s, const std::string& relight) {
   for (const Family family : {Family::kRender, Family::kBaseline, Family::kRealis})
     for (const Row* row : of(s, family))
       out += "<tr><th scope=\"row\">" + escape(row->name) +
-             (family == Family::kBaseline ? "<small>" + escape(verdict(s, *row)) + "</small>" : "") + "</th>" +
+             (family == Family::kBaseline ? "<small>" + escape(verdict(s, *row)) + "</small>" : "") +
+             (row->bake_words.empty() ? "" : "<small>" + escape(row->bake_words) + "</small>") + "</th>" +
              cell(std::to_string(row->bytes)) + cell(fixed(row->errors.psnr, 2)) +
              cell(fixed(row->errors.stops_median, 3)) + cell(fixed(row->errors.stops_95, 3)) +
              cell(row->exact ? fixed(row->exact->psnr, 2) + ", " + fixed(row->exact->stops_95, 3) : "") +
@@ -241,7 +243,9 @@ std::string page_of(const Study& s, const std::string& relight) {
   out +=
       "</tbody></table></div><p class=\"quiet\">bake: of all texels, from the time of those on the grid, choosing "
       "lobes included, reading and fitting not. add up: the stored numbers of a texel with the values of a light, on "
-      "one core; the render is not in it.</p>\n";
+      "one core; the render is not in it. Under a residual's name: the words of likeness realis bake that make it of "
+      "all "
+      "lights.</p>\n";
   const std::vector<const Row*> realis = of(s, Family::kRealis);
   if (const Row* ours = best_of(realis)) {
     out += "<h2>By light</h2><div class=\"plots\">" + sphere(s, s.rows.front()) + sphere(s, *ours) + "</div>\n";

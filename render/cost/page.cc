@@ -40,7 +40,7 @@ struct Pages {
     p.corner = is_flip ? "FLIP" : "relMSE";
     p.time_axis = unit + " a frame";
     p.error_axis = is_flip ? "FLIP: seen difference, down is better" : "relMSE, down is better";
-    p.least_time = 1e-3, p.least_error = kLeastError, p.time_text = time_text;
+    p.least_time = 1e-3, p.least_error = kLeastError, p.time_text = time_text, p.joins_diamonds = true;
     double least = HUGE_VAL;
     for (const Row* row : rows) least = std::min(least, value_of(row->errors, metric));
     // Noise far below all that is drawn would only squeeze it.

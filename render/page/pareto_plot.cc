@@ -246,7 +246,7 @@ std::string drawing_of(const ParetoPlot& plot) {
                svg_text(kLeft + 6, at + 12, "start", escape(level.name), 11, " style=\"fill:#1d5a31\"");
     taken.push_back({kLeft, at, kLeft + 12 + width_of(level.name, false), at + 15});
   }
-  content += front_of(points) + line_of_diamonds(points);
+  content += front_of(points) + (plot.joins_diamonds ? line_of_diamonds(points) : "");
   Labels labels(points, std::move(taken));
   std::string marks, names;
   for (const Point* point : by_claim(points)) names += labels.place(*point);

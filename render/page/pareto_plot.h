@@ -10,7 +10,7 @@ namespace likeness::page {
 enum class ParetoMark {
   kDisc,    // a way among others; hollow and grey where another is at once faster and no less exact
   kSquare,  // one that is not compared: hollow, and never on the front
-  kDiamond  // one of another kind, for comparison: has a line of its own
+  kDiamond  // one of another kind, for comparison
 };
 
 struct ParetoPoint {
@@ -38,6 +38,7 @@ struct ParetoPlot {
   double noise = 0;                       // below it errors mean nothing: a band. 0: none
   std::vector<ParetoLevel> levels = {};   // lines across
   double least_time = 0.01, least_error = 1e-12;
+  bool joins_diamonds = false;  // they are one way with more and more effort: a line from one to the next
   std::function<std::string(double)> time_text;
 };
 

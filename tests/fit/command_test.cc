@@ -127,12 +127,11 @@ TEST_F(FitCommand, TheNumbersDoNotDependOnThreadsNorOnWhatElseIsFitted) {
   const fs::path in = make_batch(4);
   const fs::path one = in / "material_2.mbsdf";
   ASSERT_EQ(run({one.string(), "--out", folder / "1", "--threads", "1"}).exit_code, 0);
-  ASSERT_EQ(run({one.string(), "--out", folder / "2", "--threads", "2"}).exit_code, 0);
   ASSERT_EQ(run({one.string(), "--out", folder / "4", "--threads", "4"}).exit_code, 0);
   ASSERT_EQ(run({one.string(), "--out", folder / "again", "--threads", "4"}).exit_code, 0);
   ASSERT_EQ(run({in.string(), "--out", folder / "batch", "--threads", "3"}).exit_code, 0);
   const std::string want = result_of(folder / "1/material_2.fit.json");
-  for (const char* other : {"2", "4", "again", "batch"}) {
+  for (const char* other : {"4", "again", "batch"}) {
     EXPECT_EQ(result_of(folder / other / "material_2.fit.json"), want) << other;
     EXPECT_EQ(read(folder / other / "material_2.material.json"), read(folder / "1/material_2.material.json")) << other;
   }
@@ -145,12 +144,11 @@ TEST_F(FitCommand, TheNumbersOfATableDoNotDependOnThreads) {
   datasets_synthetic::Material m{brdf::Disney2012<double>{}, {}, noise, 1};
   m.grid = datasets_synthetic::grid_of(measured::Format::kMbsdf, 60, 60);  // 216,000 samples: four chunks
   files::write_whole(folder / "a.mbsdf", datasets_synthetic::make(m).bytes);
-  for (const char* threads : {"1", "2", "4"})
+  for (const char* threads : {"1", "4"})
     ASSERT_EQ(run({folder / "a.mbsdf", "--on", "table", "--tier", "base", "--starts", "1", "--threads", threads,
                    "--out", folder / threads})
                   .exit_code,
               0);
-  EXPECT_EQ(result_of(folder / "2/a.fit.json"), result_of(folder / "1/a.fit.json"));
   EXPECT_EQ(result_of(folder / "4/a.fit.json"), result_of(folder / "1/a.fit.json"));
 }
 
@@ -203,7 +201,7 @@ TEST_F(FitCommand, AStoppedBatchResumes) {
   int unfinished = 0;
   for (const int signal : {SIGKILL, SIGINT, SIGTERM})
     for (const int tenths : {3, 6}) {
-      if (signal == SIGTERM && tenths != 3) continue;  // it is handled as SIGINT is
+      if (signal != SIGKILL && tenths != 3) continue;  // both ask it to end
       SCOPED_TRACE("signal " + std::to_string(signal) + " after " + std::to_string(tenths) + " tenths");
       const fs::path out = folder / ("out_" + std::to_string(signal) + "_" + std::to_string(tenths));
       const pid_t child = start(quick(in, out), folder / ".out", folder / ".error");

@@ -216,6 +216,45 @@ TEST_F(RealisCommand, TheReportBakesAndWritesAPageToRelight) {
   EXPECT_TRUE(fs::exists(path("fresh/realis/bake/bake.json")));
   EXPECT_NE(content(path("fresh/realis/report/report.html")).find("href=\"relight.html\""), std::string::npos);
   EXPECT_NE(content(path("fresh/realis/report/relight.html")).find("data:image/jpeg;base64,"), std::string::npos);
+  // The words beside a way bake it.
+  int baked = 0;
+  const Json report = Json::parse(content(path("fresh/realis/report/report.json")));
+  for (const Json& row : report.at("rows")) {
+    EXPECT_EQ(row.contains("bake_words"), row.at("family") == "realis") << row.at("name");
+    const std::string name = row.at("name");
+    if (name != "render + 4 mixes luminance, 4 bit" && name != "render + 8 lobes luminance") continue;
+    const Outcome again =
+        run("realis bake fresh --json --result '' --name again " + row.at("bake_words").get<std::string>());
+    ASSERT_EQ(again.exit_code, 0) << again.err;
+    EXPECT_EQ(Json::parse(again.out).at("bytes_of_texel").get<int>() + 5, row.at("bytes").get<int>()) << name;
+    ++baked;
+  }
+  EXPECT_EQ(baked, 2);
+}
+
+// A mesh in its own texture, as docs/realis_mesh.md has it: what was photographed is brighter than what is rendered.
+TEST_F(RealisCommand, AMeshIsBakedFromItsSceneAndSaysSo) {
+  const auto scene = [](const std::string& name, const std::string& color) {
+    std::ofstream(path(name)) << R"({"format": "likeness scene", "version": 1,
+      "meshes": {"board": {"shape": "plane", "size": 0.3}},
+      "materials": {"paint": {"parameters": {"roughness": 1, "base_color": )"
+                              << color << R"(}}},
+      "instances": [{"name": "board", "mesh": "board", "material": "paint"}]})";
+  };
+  scene("photographed.json", "[0.6, 0.4, 0.2]"), scene("board.json", "[0.3, 0.2, 0.1]");
+  ASSERT_EQ(run("make capture mesh --template --lights 12 --cameras 2 --size 40x40").exit_code, 0);
+  ASSERT_EQ(run("olat render mesh --scene photographed.json --integrator runtime --spp 1 --variant photos").exit_code,
+            0);
+  ASSERT_EQ(run("olat render mesh --scene board.json --integrator runtime --spp 1").exit_code, 0);
+  const Outcome outcome = run("realis bake mesh --scene board.json --object board --resolution 16 --lobes 8 --json");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const Json bake = Json::parse(content(path("mesh/realis/bake/bake.json")));
+  EXPECT_EQ(bake.at("space"), "texture");
+  EXPECT_FALSE(fs::exists(path("mesh/realis/bake/work"))) << "what is kept between steps is removed";
+  const Json said = Json::parse(outcome.out);
+  EXPECT_LT(said.at("realis_rms").get<double>(), 0.5 * said.at("render_rms").get<double>()) << outcome.out;
+  expect_refusal("realis bake mesh --scene board.json --object chair", 2, {"chair", "board"});
+  expect_refusal("realis bake mesh --scene board.json --with black", 2, {"black"});
 }
 
 // Interrupted as soon as it runs, and again a little later each time until it is done: each time 130 and nothing of the

@@ -147,6 +147,15 @@ TEST(ParetoPlot, LaysNoLabelOverAnotherHoweverManyThereAre) {
           << i << " and " << k;
 }
 
+TEST(ParetoPlot, JoinsDiamondsWhereTheyAreOneWay) {
+  page::ParetoPlot plot;
+  plot.title = "T", plot.time_text = [](double t) { return std::to_string(t); };
+  plot.points = {{"a", 1, 1, page::ParetoMark::kDiamond}, {"b", 2, 0.5, page::ParetoMark::kDiamond}};
+  EXPECT_EQ(count(drawing_of(plot), "stroke-dasharray=\"5 3\""), 0u);
+  plot.joins_diamonds = true;
+  EXPECT_EQ(count(drawing_of(plot), "stroke-dasharray=\"5 3\""), 1u);
+}
+
 TEST(ParetoPlot, EscapesNamesAndLeavesOutThoseThatAreNotWanted) {
   page::ParetoPlot plot;
   plot.title = "T <t>", plot.time_text = [](double t) { return std::to_string(t); };
