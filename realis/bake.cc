@@ -69,8 +69,7 @@ Sampled sampled_of(const Subject& s, std::uint64_t seed, bool by_stops) {
 Bake bake(const Subject& subject, const BakeOptions& options, const GoesOn& goes_on) {
   if (options.is_exact) return bake_with(subject, exact_basis(subject.to_lights), options, goes_on);
   if (options.mixes > 0) {
-    const Mixes mixes(subject, prior_of(subject.to_lights, prior_length(subject, options.floor, options.seed)),
-                      options.floor, options.seed);
+    const Mixes mixes(subject, prior_length(subject, options.floor, options.seed), options.floor, options.seed);
     return bake_with(subject, mixes.first(options.mixes), options, goes_on);
   }
   std::vector<Choice> choices;
@@ -92,6 +91,7 @@ Bake bake(const Subject& subject, const BakeOptions& options, const GoesOn& goes
 Bake bake_with(const Subject& subject, Basis basis, const BakeOptions& options, const GoesOn& goes_on) {
   Bake out;
   out.basis = std::move(basis), out.channels = options.channels, out.floor = options.floor, out.bits = options.bits;
+  if (!out.basis.mix.empty() && out.bits == baked::Bits::kEight) out.bits = baked::Bits::kEightSquared;
   const std::size_t lobes = out.basis.size(), lights = subject.lights.size(), channels = out.channel_count();
   out.kept = options.dominant > 0 ? std::min(options.dominant, lobes) : lobes;
   out.coefficients.assign(subject.texels() * channels * lobes, 0.0f);

@@ -12,23 +12,23 @@
 // than as many of any lobes, polynomials or harmonics: no other functions of that number come nearer in the mean square.
 namespace likeness::realis {
 
-// Lobes at the lights, on four scales and one that is the same everywhere, and how free each scale is: a prior for
-// residuals as functions of the direction (a Gaussian process). It knows where the lights are and nothing of the photographs:
-// fits have seen those, and took out of the residuals what one light would have said of another, so that a search by
-// lights that are left out finds that they say nothing. At most kMostLobes lobes; without lights the basis is empty.
-// `length` is the distance of unit vectors within which residuals are alike.
-inline constexpr double kPriorLength = 0.9;
-Basis prior_of(std::span<const glm::dvec3> to_lights, double length = kPriorLength);
-
+// Residuals as functions of the direction have a prior, a Gaussian process (Rasmussen and Williams 2006): they are alike in
+// directions that are near each other, within `length` of unit vectors. It knows where the lights are and nothing of the
+// photographs: fits have seen those, and took out of the residuals what one light would have said of another, so that a
+// search by lights that are left out finds that they say nothing.
+//
 // Where lights are many, one of them is little of what fits have seen, and the length is the one that foretells each light
-// of some texels best by the others (Gaussian process, in closed form). Below kLightsToChoose lights: kPriorLength.
+// of some texels best by the others (in closed form). Below kLightsToChoose lights: kPriorLength.
+inline constexpr double kPriorLength = 0.9;
 inline constexpr std::size_t kLightsToChoose = 40;
 double prior_length(const Subject& subject, double floor, std::uint64_t seed);
 
-// Principal components of the residuals that the prior makes of the samples, as functions of the direction.
+// Principal components of the residuals that the prior makes of the samples, as functions of the direction: sums of lobes at
+// the lights, on four scales and one that is the same everywhere (at most kMostLobes), which are the prior's to 1 % of a
+// residual between and near the lights. Without lights there is no lobe.
 class Mixes {
  public:
-  Mixes(const Subject& subject, const Basis& prior, double floor, std::uint64_t seed);
+  Mixes(const Subject& subject, double length, double floor, std::uint64_t seed);
   ~Mixes();
   Mixes(Mixes&&) noexcept;
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <random>
 
 #include <Eigen/Core>
 #include <glm/geometric.hpp>
@@ -88,10 +89,12 @@ class Worker {
  private:
   const Subject& subject() const { return study_.subject; }
   std::size_t lights() const { return subject().lights.size(); }
-  std::size_t fold_of(std::size_t light) const { return light % study_.folds; }
+  // Lights of a list often stand in rows: every eighth would be a whole row.
+  std::size_t fold_of(std::size_t light) const { return shuffled_[light] % study_.folds; }
   std::vector<std::size_t> lights_of(std::size_t fold) const {
     std::vector<std::size_t> out;
-    for (std::size_t i = fold; i < lights(); i += study_.folds) out.push_back(i);
+    for (std::size_t i = 0; i < lights(); ++i)
+      if (fold_of(i) == fold) out.push_back(i);
     return out;
   }
   void ask(double share, std::string_view what) const {
@@ -137,6 +140,11 @@ class Worker {
     study_.folds = options_.variant                  ? std::min(options_.folds, all.lights.size())
                    : all.lights.size() <= kFewLights ? all.lights.size()
                                                      : std::min(options_.folds, all.lights.size());
+
+    shuffled_.resize(all.lights.size());
+    std::iota(shuffled_.begin(), shuffled_.end(), std::size_t{0});
+    std::mt19937_64 random(options_.seed);
+    for (std::size_t i = shuffled_.size(); i > 1; --i) std::swap(shuffled_[i - 1], shuffled_[random() % i]);
 
     std::vector<float> values;
     for (std::size_t i = 0; i < subject().photo.size(); ++i)
@@ -277,8 +285,7 @@ class Worker {
     if (!mixes_[left]) {
       const auto begin = Clock::now();
       const Subject others = without(folds_[fold_of(left)], std::span(&left, 1));
-      mixes_[left].emplace(others, prior_of(others.to_lights, prior_length(others, options_.floor, options_.seed)),
-                           options_.floor, options_.seed);
+      mixes_[left].emplace(others, prior_length(others, options_.floor, options_.seed), options_.floor, options_.seed);
       choosing_mixes_ += seconds_since(begin) / static_cast<double>(lights());
     }
     return *mixes_[left];
@@ -345,6 +352,7 @@ class Worker {
   const GoesOn& goes_on_;
   Study study_;
   std::vector<Subject> folds_;
+  std::vector<std::size_t> shuffled_;  // positions of lights
   std::map<std::size_t, std::vector<Basis>> bases_;
   std::map<std::size_t, double> choosing_;
   std::vector<std::optional<Mixes>> mixes_;  // without each light

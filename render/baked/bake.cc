@@ -16,7 +16,7 @@ constexpr double kWithin = 0.995;
 std::vector<double> multipliers_of(const Bake& bake) {
   const std::size_t each = bake.channel_count() * bake.basis.size();
   std::vector<double> out(each, 0.0);
-  if (bake.bits == Bits::kEight) {
+  if (bake.bits != Bits::kFour) {
     for (std::size_t i = 0; i < bake.coefficients.size(); ++i)
       out[i % each] = std::max(out[i % each], static_cast<double>(std::abs(bake.coefficients[i])));
     return out;
@@ -39,15 +39,28 @@ std::size_t bytes_of_texel(const Bake& bake) {
   return numbers + (bake.is_sparse() ? bake.kept : 0);
 }
 
-std::uint8_t nibble_of(double c, double multiplier) {
+namespace {
+struct Squares {
+  int zero, steps;
+};
+Squares squares_of(Bits bits) {
+  return bits == Bits::kFour ? Squares{kNibbleZero, 7} : Squares{brdf::kRealisZero, 127};
+}
+}  // namespace
+
+std::uint8_t stored_of(double c, double multiplier, Bits bits) {
+  if (bits == Bits::kEight) return brdf::encoded(c, multiplier);
+  const Squares squares = squares_of(bits);
   const double x = std::abs(c) / multiplier;
-  if (!(multiplier > 0) || std::isnan(x)) return kNibbleZero;
-  const auto step = static_cast<int>(std::lround(7 * std::sqrt(std::min(x, 1.0))));
-  return static_cast<std::uint8_t>(kNibbleZero + (c < 0 ? -step : step));
+  if (!(multiplier > 0) || std::isnan(x)) return static_cast<std::uint8_t>(squares.zero);
+  const auto step = static_cast<int>(std::lround(squares.steps * std::sqrt(std::min(x, 1.0))));
+  return static_cast<std::uint8_t>(squares.zero + (c < 0 ? -step : step));
 }
 
-double from_nibble(std::uint8_t nibble, double multiplier) {
-  const double x = (nibble - kNibbleZero) / 7.0;
+double worth_of(std::uint8_t stored, double multiplier, Bits bits) {
+  if (bits == Bits::kEight) return brdf::decoded(static_cast<double>(stored), multiplier);
+  const Squares squares = squares_of(bits);
+  const double x = static_cast<double>(stored - squares.zero) / squares.steps;
   return multiplier * x * std::abs(x);
 }
 
@@ -56,9 +69,7 @@ Bake quantised(const Bake& bake) {
   const std::vector<double> multipliers = multipliers_of(bake);
   for (std::size_t i = 0; i < out.coefficients.size(); ++i) {
     const double m = multipliers[i % multipliers.size()], c = static_cast<double>(bake.coefficients[i]);
-    out.coefficients[i] =
-        static_cast<float>(bake.bits == Bits::kFour ? from_nibble(nibble_of(c, m), m)
-                                                    : brdf::decoded(static_cast<double>(brdf::encoded(c, m)), m));
+    out.coefficients[i] = static_cast<float>(worth_of(stored_of(c, m, bake.bits), m, bake.bits));
   }
   return out;
 }

@@ -36,9 +36,10 @@ struct Basis {
   std::size_t size() const { return mix.empty() ? lobes.size() : mix.size() / lobes.size(); }
 };
 
-// How a coefficient is stored. With four bits a nibble n says (|n - 8| / 7)^2 of its multiplier with the sign of n - 8,
-// since most coefficients are small; 0 says nothing was known there.
-enum class Bits : unsigned char { kEight, kFour };
+// How a coefficient is stored: a byte b says (b - 128) / 127 of its multiplier. Squared it says that number's square with
+// its sign, since most coefficients of mixes are small beside those of a highlight; with four bits a nibble n so says
+// (n - 8) / 7. 0 says nothing was known there.
+enum class Bits : unsigned char { kEight, kFour, kEightSquared };
 
 struct Bake {
   Basis basis;
@@ -82,9 +83,9 @@ Bake quantised(const Bake& bake);
 // that 1 in 200 is above, and those are clipped.
 std::vector<double> multipliers_of(const Bake& bake);
 
-// Bits::kFour, [1, 15].
+// What stands for c: [1, 255], of four bits [1, 15]; what is no number is 0. And what that says.
 inline constexpr int kNibbleZero = 8;
-std::uint8_t nibble_of(double c, double multiplier);
-double from_nibble(std::uint8_t nibble, double multiplier);
+std::uint8_t stored_of(double c, double multiplier, Bits bits);
+double worth_of(std::uint8_t stored, double multiplier, Bits bits);
 
 }  // namespace likeness::baked

@@ -17,7 +17,7 @@
 //
 //     coefficients_000.png ...  8 bit RGB: one plane after the other, three a file. A byte b says (b - 128) / 127 of its lobe's
 //                               multiplier; 0 says nothing was known there.
-//                               "4 bit": two planes a byte, the first in its upper half (Bits::kFour)
+//                               "4 bit": two planes a byte, the first in its upper half; "8 bit squared": Bits
 //     lobes_000.png ...         only if texels keep some lobes of many: which lobe each plane of coefficients is of, there
 //     coefficients.exr          instead of both, where nothing was to be lost: a layer of floats a plane
 //

@@ -45,7 +45,7 @@ constexpr std::array kBakeKeys{
     Key{.name = "width", .form = Form::kWhole, .range = {1, 65536}, .unit = "pixel", .required = true, .text = "of the pictures"},
     Key{.name = "height", .form = Form::kWhole, .range = {1, 65536}, .unit = "pixel", .required = true, .text = "of the pictures"},
     Key{.name = "channels", .form = Form::kChoice, .required = true, .choices = kChannels, .text = "one residual for all colors, or one each"},
-    Key{.name = "storage", .form = Form::kChoice, .required = true, .choices = kStorages, .text = "of the coefficients"},
+    Key{.name = "storage", .form = Form::kChoice, .required = true, .choices = kStorages, .text = "of the coefficients: a number of that many bits says what share of its multiplier, of 4 bit and squared the square with its sign"},
     Key{.name = "floor", .form = Form::kNumber, .range = {0, 1}, .above = true, .required = true, .text = "what the cosine of light and normal counts for at least, when a residual is multiplied by it"},
     Key{.name = "kept", .form = Form::kWhole, .range = {0, kMostLobes}, .required = true, .text = "lobes of each texel that are not 0"},
     Key{.name = "lobes", .form = Form::kList, .required = true, .sections = kLobeOnly, .text = "shared by all texels"},

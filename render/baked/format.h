@@ -13,7 +13,7 @@ namespace likeness::baked {
 inline constexpr std::size_t kMostBakeBytes = std::size_t{1} << 26;  // of bake.json
 inline constexpr int kBakeVersion = 1;
 inline constexpr std::array<std::string_view, 2> kChannels{"luminance", "rgb"};
-inline constexpr std::array<std::string_view, 3> kStorages{"8 bit", "float", "4 bit"};
+inline constexpr std::array<std::string_view, 4> kStorages{"8 bit", "float", "4 bit", "8 bit squared"};
 inline constexpr std::array<std::string_view, 2> kSpaces{"image", "texture"};
 inline constexpr const char *kBakeFile = "bake.json", *kFloats = "coefficients.exr", *kBakeType = "realis bake",
                             *kSurfaceFile = "surface.json", *kNormals = "normal.png", *kColors = "base_color.png",

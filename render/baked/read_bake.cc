@@ -1,6 +1,5 @@
 #include <cmath>
 
-#include "brdf/realis/coefficient.h"
 #include "render/baked/bake_file.h"
 #include "render/baked/format.h"
 #include "render/files/files.h"
@@ -78,9 +77,7 @@ void unpack_bytes(const Planes& planes, const std::vector<double>& multipliers, 
       const std::size_t at =
           plane / bake.kept * lobes + (planes.lobes.empty() ? slot : std::size_t{planes.lobes[slot][pixel]});
       const std::uint8_t byte = planes.coefficients[plane][pixel];
-      bake.coefficients[texel * each + at] =
-          static_cast<float>(bake.bits == Bits::kFour ? from_nibble(byte, multipliers[at])
-                                                      : brdf::decoded(static_cast<double>(byte), multipliers[at]));
+      bake.coefficients[texel * each + at] = static_cast<float>(worth_of(byte, multipliers[at], bake.bits));
     }
 }
 
@@ -116,6 +113,7 @@ Header parse_header(std::string_view text, const std::string& source) {
     for (std::size_t c = 0; c < channels; ++c) out.multipliers[c * rows.size() + k] = each[c];
   }
   if (fields.text("storage") == kStorages[2]) bake.bits = Bits::kFour;
+  if (fields.text("storage") == kStorages[3]) bake.bits = Bits::kEightSquared;
   const std::vector<json::Fields> mixes = fields.list("mixes");
   if (mixes.size() > kMostLobes)
     fields.refuse("mixes", " are " + std::to_string(mixes.size()) + "; expected at most " + std::to_string(kMostLobes));

@@ -85,9 +85,8 @@ void place_mixes(const Header& header, double exposure, Residual& out) {
           static_cast<float>(std::min(header.multipliers[c * out.mixes.count + j] / exposure, kMostMultiplier));
   for (int byte = 0; byte < 256; ++byte) {
     const auto b = static_cast<std::uint8_t>(byte);
-    const double worth = header.bake.bits == Bits::kFour ? from_nibble(std::min<std::uint8_t>(b, 15), 1.0)
-                                                         : brdf::decoded(static_cast<double>(b), 1.0);
-    out.mixes.decoded[b] = static_cast<float>(worth);
+    const std::uint8_t most = header.bake.bits == Bits::kFour ? 15 : 255;
+    out.mixes.decoded[b] = static_cast<float>(worth_of(std::min(b, most), 1.0, header.bake.bits));
   }
 }
 
@@ -120,7 +119,7 @@ std::size_t Residual::bytes() const {
 Residual read_residual(const std::filesystem::path& folder, const Access& access) {
   const std::filesystem::path file = folder / kBakeFile;
   const Header header = parse_header(access.bytes(file, kMostBakeBytes), file.string());
-  const bool is_mixed = !header.bake.basis.mix.empty() || header.bake.bits == Bits::kFour;
+  const bool is_mixed = !header.bake.basis.mix.empty() || header.bake.bits != Bits::kEight;
   if (is_mixed && header.bake.basis.size() > brdf::RealisMixes::kMost)
     throw files::InputError(file.string() + ": " + std::to_string(header.bake.basis.size()) +
                             " mixes (or lobes of 4 bit) are more than a renderer reads; at most " +

@@ -3,7 +3,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "brdf/realis/coefficient.h"
 #include "render/baked/bake_file.h"
 #include "render/baked/format.h"
 #include "render/files/files.h"
@@ -14,8 +13,6 @@ namespace likeness::baked {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-std::uint8_t byte_of(float c, double multiplier) { return brdf::encoded(static_cast<double>(c), multiplier); }
 
 // Planes of bytes over the picture, three a file; 0 elsewhere.
 void write_planes(const std::filesystem::path& folder, const char* name, const StoredBake& head, std::size_t planes,
@@ -113,7 +110,7 @@ void write_bake(const std::filesystem::path& folder, const StoredBake& stored, c
       const std::vector<float> values = source.coefficients(plane);
       std::vector<std::uint8_t> out(values.size());
       for (std::size_t texel = 0; texel < out.size(); ++texel)
-        out[texel] = nibble_of(static_cast<double>(values[texel]), multipliers[plane]);
+        out[texel] = stored_of(static_cast<double>(values[texel]), multipliers[plane], bake.bits);
       return out;
     };
     write_planes(folder, "coefficients", stored, (each + 1) / 2, [&](std::size_t pair) {
@@ -134,7 +131,8 @@ void write_bake(const std::filesystem::path& folder, const StoredBake& stored, c
       std::vector<std::uint8_t> out(values.size());
       for (std::size_t texel = 0; texel < out.size(); ++texel)
         out[texel] =
-            byte_of(values[texel], multipliers[bake.is_sparse() ? plane / bake.kept * lobes + of[texel] : plane]);
+            stored_of(static_cast<double>(values[texel]),
+                      multipliers[bake.is_sparse() ? plane / bake.kept * lobes + of[texel] : plane], bake.bits);
       return out;
     });
   }
@@ -148,7 +146,7 @@ void write_bake(const std::filesystem::path& folder, const StoredBake& stored, c
   }
   out["width"] = stored.width, out["height"] = stored.height;
   out["channels"] = kChannels[static_cast<std::size_t>(bake.channels)];
-  out["storage"] = kStorages[is_float ? 1 : is_four ? 2 : 0];
+  out["storage"] = is_float ? kStorages[1] : kStorages[bake.bits == Bits::kEight ? 0 : is_four ? 2 : 3];
   out["floor"] = bake.floor, out["kept"] = bake.kept;
   Json& rows = out["lobes"] = Json::array();
   const bool is_mixed = !bake.basis.mix.empty();
